@@ -145,12 +145,10 @@ double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy) 
 
 std::vector<Grid> coarser_grids(const Grid& grid) {
   std::vector<Grid> grids;
-  Grid last = grid;
-  while (grids.size() < 2) {
+  for (Grid last = grid; grids.size() < 2;) {
     const Grid next{halved(last.nx), halved(last.ny), grid.size_x, grid.size_y};
     if (next == last) break;
-    grids.push_back(next);
-    last = next;
+    grids.push_back(last = next);
   }
   return grids;
 }
@@ -175,9 +173,8 @@ std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const Co
     const State* const coarser = scene.accuracy.chosen && !levels.empty() ? &levels.back().state : nullptr;
     State state = press_on(grid, on_cells(geometry.combined(), geometry.grid(), grid, periodic), loose_enough,
                            scene, geometry, plan, request, monitor, coarser);
-    const double across = static_cast<double>(finer.nx) / grid.nx,
-                 up = static_cast<double>(finer.ny) / grid.ny;
-    levels.push_back({std::move(state), std::max(across, up)});
+    levels.push_back({std::move(state), std::max(static_cast<double>(finer.nx) / grid.nx,
+                                                 static_cast<double>(finer.ny) / grid.ny)});
   }
   std::ranges::reverse(levels);
   return std::make_shared<const CompanionGrids>(request, std::move(levels));

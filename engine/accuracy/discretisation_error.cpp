@@ -234,9 +234,8 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
                 "there is one of " + joined(estimated_quantities()));
   const CellError& cells = *found->cells;
   if (!state.companion_grids())
-    throw Error(ErrorCode::bad_state,
-                "the discretisation error of " + quoted(name) + " was not estimated in this press",
-                "give lab.contact accuracy={ estimate=true }, which solves coarser grids as well");
+    refuse_state("the discretisation error of " + quoted(name) + " was not estimated in this press",
+                 "give lab.contact accuracy={ estimate=true }, which solves coarser grids as well");
   if (is_prescribed(name, state.companion_grids()->request().by) || state.load() == 0) {
     const double value = found->of(state);
     return {value, 0, value, cells.margin};

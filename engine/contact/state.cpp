@@ -159,8 +159,8 @@ struct State::Shared {
   std::shared_ptr<const Solution> open(std::string_view read) const {
     const std::lock_guard lock(mutex);
     if (solution) return solution;
-    throw Error(ErrorCode::bad_state, std::string(read) + " was not read before the contact was closed",
-                "read it before c:close(), or leave the contact open: Lua frees it with its last state");
+    refuse_state(std::string(read) + " was not read before the contact was closed",
+                 "read it before c:close(), or leave the contact open: Lua frees it with its last state");
   }
   Array<std::uint8_t> mask() const { return open("which nodes touch")->contact_mask(); }
   Array<std::int64_t> find_regions(Neighbours neighbours) const {
@@ -419,8 +419,7 @@ Histogram State::distribution(std::string_view name, const HistogramOptions& opt
                 "distributions are " + joined(known, " and "));
   if (name == "spot_area") {
     const std::vector<double> areas = spot_areas();
-    if (areas.empty())
-      throw Error(ErrorCode::bad_state, "no node touches, so there are no spots to distribute");
+    if (areas.empty()) refuse_state("no node touches, so there are no spots to distribute");
     return make_histogram(areas, options);
   }
   const std::shared_ptr<const Field> values = field(name);
@@ -428,9 +427,8 @@ Histogram State::distribution(std::string_view name, const HistogramOptions& opt
   std::copy_if(values->values().begin(), values->values().end(), std::back_inserter(positive),
                [](double value) { return value > 0; });
   if (positive.empty())
-    throw Error(ErrorCode::bad_state, name == "gap"
-                                          ? "every node touches, so there are no gaps to distribute"
-                                          : "no node touches, so there are no pressures to distribute");
+    refuse_state(name == "gap" ? "every node touches, so there are no gaps to distribute"
+                               : "no node touches, so there are no pressures to distribute");
   return make_histogram(positive, options);
 }
 
@@ -525,8 +523,8 @@ std::vector<std::string> state_limits(const State& state) {
 void write_state(const State& state, const std::filesystem::path& path, std::vector<std::string> fields) {
   const std::string extension = file_extension(path.string());
   if (extension != "h5" && extension != "hdf5")
-    throw Error(ErrorCode::bad_file, "cannot write a state to " + file_name(path.string()),
-                "its fields go into one HDF5 file: use .h5");
+    refuse_bad_file("cannot write a state to " + file_name(path.string()),
+                    "its fields go into one HDF5 file: use .h5");
   if (fields.empty()) fields = fields_of(state);
   Hdf5Content content;
   content.texts = {{"content", "asperity state"},

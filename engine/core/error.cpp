@@ -20,4 +20,12 @@ Error::Error(ErrorCode code, std::string sentence, std::string hint)
   text_ = hint_.empty() ? sentence_ : sentence_ + "; " + hint_;
 }
 
+void refuse_state(std::string sentence, std::string hint) {
+  throw Error(ErrorCode::bad_state, std::move(sentence), std::move(hint));
+}
+
+void refuse_bad_file(std::string sentence, std::string hint) {
+  throw Error(ErrorCode::bad_file, std::move(sentence), std::move(hint));
+}
+
 }  // namespace asperity

@@ -44,4 +44,7 @@ class Error : public std::exception {
   std::string text_;
 };
 
+[[noreturn]] void refuse_state(std::string sentence, std::string hint = {});
+[[noreturn]] void refuse_bad_file(std::string sentence, std::string hint = {});
+
 }  // namespace asperity

@@ -88,20 +88,17 @@ void* part_symbol(const LoadedPart& part, const char* symbol, const std::vector<
     // The handle is never closed.
     void* const handle = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr)
-      throw Error(ErrorCode::bad_file,
-                  std::string(part.purpose) + " by " + quoted(place.string()) +
-                      ", which cannot be loaded: " + ::dlerror(),
-                  "install Debian's package " + std::string(part.package));
+      refuse_bad_file(std::string(part.purpose) + " by " + quoted(place.string()) +
+                          ", which cannot be loaded: " + ::dlerror(),
+                      "install Debian's package " + std::string(part.package));
     if (void* const address = ::dlsym(handle, symbol); address != nullptr) return address;
-    throw Error(ErrorCode::bad_file,
-                std::string(part.purpose) + " by " + quoted(place.string()) +
-                    ", a file of another version: it has no " + quoted(symbol),
-                "build or install the program and its parts together");
+    refuse_bad_file(std::string(part.purpose) + " by " + quoted(place.string()) +
+                        ", a file of another version: it has no " + quoted(symbol),
+                    "build or install the program and its parts together");
   }
-  throw Error(ErrorCode::bad_file,
-              std::string(part.purpose) + " by asperity-" + std::string(part.name) +
-                  ".so, a file that is missing; looked for " + joined(searched, " and "),
-              "build or install the whole program, with Debian's package " + std::string(part.package));
+  refuse_bad_file(std::string(part.purpose) + " by asperity-" + std::string(part.name) +
+                      ".so, a file that is missing; looked for " + joined(searched, " and "),
+                  "build or install the whole program, with Debian's package " + std::string(part.package));
 }
 
 }  // namespace asperity

@@ -206,10 +206,9 @@ InterlockedJunctions interlock(const JunctionLaw& law, const State& state,
     extra[k] = junction.force - law.strength(p);
   }
   if (locked > 0)
-    throw Error(ErrorCode::bad_state,
-                std::to_string(locked) + " of " + std::to_string(state.contacts()) +
-                    " junctions are so steep that they lock: their slope times `alpha` is one or more",
-                "give the law a `tau_max`, the strength at which they shear off");
+    refuse_state(std::to_string(locked) + " of " + std::to_string(state.contacts()) +
+                     " junctions are so steep that they lock: their slope times `alpha` is one or more",
+                 "give the law a `tau_max`, the strength at which they shear off");
   result.extra_force = block_sum(extra.values()) * state.geometry().grid().cell_area();
   result.capped_fraction = static_cast<double>(capped) / static_cast<double>(state.contacts());
   return result;

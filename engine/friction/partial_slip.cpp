@@ -52,8 +52,7 @@ void require_tangential(const Effects& effects) {
 PartialSlip shear(const Solver& contact, const State& normal, const ShearRequest& request, Monitor& monitor) {
   require_tangential(normal.effects());
   if (!(normal.load() > 0))
-    throw Error(ErrorCode::bad_state, "the contact carries no load, so nothing resists shear",
-                "press it first");
+    refuse_state("the contact carries no load, so nothing resists shear", "press it first");
   const double ratio = ratio_of(request, normal.load());
   PartialSlip result(normal, request.friction, ratio,
                      *normal.effects().find<TangentialOptions>()->compliance_ratio);

@@ -80,10 +80,9 @@ pid_t start(const fs::path& folder) {
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (reason == ENOENT || reason == EACCES)
-    throw Error(ErrorCode::bad_state, "charts and pictures are drawn by gnuplot, which is not installed",
-                "install the package gnuplot-nox");
-  if (reason != 0)
-    throw Error(ErrorCode::bad_state, std::string("gnuplot cannot be started: ") + std::strerror(reason));
+    refuse_state("charts and pictures are drawn by gnuplot, which is not installed",
+                 "install the package gnuplot-nox");
+  if (reason != 0) refuse_state(std::string("gnuplot cannot be started: ") + std::strerror(reason));
   return child;
 }
 
@@ -253,8 +252,8 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   // On some systems only the child detects a missing program.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())
-    throw Error(ErrorCode::bad_state, "charts and pictures are drawn by gnuplot, which is not installed",
-                "install the package gnuplot-nox");
+    refuse_state("charts and pictures are drawn by gnuplot, which is not installed",
+                 "install the package gnuplot-nox");
   if (failed || result.picture.empty())
     throw Error(ErrorCode::internal, "gnuplot drew no picture" +
                                          (result.messages.empty() ? std::string() : ": " + result.messages));

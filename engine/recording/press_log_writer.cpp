@@ -175,8 +175,7 @@ std::string bench_log_text(const SpecimenPair& pair) {
   using Done = SpecimenPair::Done;
   const std::vector<Done>& history = pair.history();
   if (history.empty())
-    throw Error(ErrorCode::bad_state, "nothing was done to this contact yet, so there is nothing to log",
-                "press it first");
+    refuse_state("nothing was done to this contact yet, so there is nothing to log", "press it first");
   const auto only = [&](PressBy by) {
     return std::ranges::all_of(history, [by](const Done& done) {
       const auto* press = std::get_if<PressRequest>(&done.step);

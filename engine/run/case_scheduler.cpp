@@ -283,13 +283,12 @@ class CaseScheduler {
       ByteReader in(message->bytes);
       if (message->kind == Ranks::Kind::end) {
         ranks_->put_back(*std::move(message));
-        throw Error(ErrorCode::bad_state, "rank 0 has ended or takes another way");
+        refuse_state("rank 0 has ended or takes another way");
       }
       if (message->kind != Ranks::Kind::cases && message->kind != Ranks::Kind::rows) continue;
       if (const std::string name = in.text(); name != name_) {
         if (std::stoll(name) < std::stoll(name_)) continue;
-        throw Error(ErrorCode::bad_state,
-                    "rank 0 reached another ensemble: the script must do the same in every process");
+        refuse_state("rank 0 reached another ensemble: the script must do the same in every process");
       }
       const std::lock_guard lock(mutex_);
       if (message->kind == Ranks::Kind::cases) {
@@ -313,8 +312,8 @@ class CaseScheduler {
     for (std::size_t k = 0; k < results_.size(); ++k) {
       if (schedule_.own(k)) {
         if (!cases_.find_kept(k, true))
-          throw Error(ErrorCode::bad_file, "the result of " + cases_.name(k) + " could not be stored",
-                      "check permission and space of the folder of --store");
+          refuse_bad_file("the result of " + cases_.name(k) + " could not be stored",
+                          "check permission and space of the folder of --store");
         if (!results_[k]->failure.empty()) report.failed.emplace_back(k, results_[k]->failure);
         continue;
       }

@@ -55,7 +55,7 @@ Journal::~Journal() {
 
 std::int64_t Journal::write(std::string_view event, const Json& fields) {
   const std::lock_guard lock(mutex_);
-  if (closed_) throw Error(ErrorCode::bad_state, "the run is over; its journal takes no more events");
+  if (closed_) refuse_state("the run is over; its journal takes no more events");
   return append(event, fields);
 }
 
@@ -86,8 +86,8 @@ bool Journal::repeats(const Json& line) {
       quoted(differs.path) + " was " + brief(differs.one) + " and is now " + brief(differs.other);
   for (const char* part : {"event", "function", "self", "inputs", "notebook", "script", "digest", "seed"}) {
     if (recorded[part] == now[part]) continue;
-    throw Error(ErrorCode::bad_state, "the run differs from the resumed one: in " + where + " " + what,
-                "its inputs have changed; run the script again, with --reuse for unchanged results");
+    refuse_state("the run differs from the resumed one: in " + where + " " + what,
+                 "its inputs have changed; run the script again, with --reuse for unchanged results");
   }
   departure_ = "from " + where + " on it is written again: " + what;
   if (::ftruncate(descriptor_, at == 0 ? 0 : ends_[at - 1]) != 0) throw_file_error("take up", path_, errno);
@@ -178,13 +178,11 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
     if (may_be_torn && (end == text.size() || line.find('\0') != std::string::npos)) break;
     bytes += static_cast<std::int64_t>(line.size()) + 1;
     if (line.find('\0') != std::string::npos)
-      throw Error(ErrorCode::bad_file, name + " holds zeros, as a power cut leaves them",
-                  results_remain(path));
+      refuse_bad_file(name + " holds zeros, as a power cut leaves them", results_remain(path));
     Json record = Json::parse(line, name);
     const Json* number = record.find("n");
     if (number == nullptr || number->number() != static_cast<double>(read.lines.size() + 1))
-      throw Error(ErrorCode::bad_file, name + " has a wrong number",
-                  "the journal was altered; " + results_remain(path));
+      refuse_bad_file(name + " has a wrong number", "the journal was altered; " + results_remain(path));
     read.lines.push_back(without(record));
     read.ends.push_back(bytes);
   }

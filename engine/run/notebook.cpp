@@ -36,9 +36,8 @@ void Notebook::order_columns(const std::vector<std::string>& columns) {
   const std::lock_guard lock(mutex_);
   if (columns == order_) return;
   if (!table_.columns().empty())
-    throw Error(ErrorCode::bad_state,
-                "the columns of the notebook " + quoted(name_) + " already have another order",
-                "give their order where the notebook is first opened");
+    refuse_state("the columns of the notebook " + quoted(name_) + " already have another order",
+                 "give their order where the notebook is first opened");
   Table ordered;
   for (const std::string& column : columns) {
     const auto [name, unit, mean_of] = split_column_unit(column);

@@ -27,8 +27,8 @@ constexpr const char* unhashed = "unhashed";
 
 const Json& member(const Json& record, std::string_view name, const fs::path& file) {
   if (const Json* found = record.find(name)) return *found;
-  throw Error(ErrorCode::bad_file, quoted(file.string()) + " has no `" + std::string(name) + "`",
-              "it is not the record of a run, or it was altered");
+  refuse_bad_file(quoted(file.string()) + " has no `" + std::string(name) + "`",
+                  "it is not the record of a run, or it was altered");
 }
 
 std::string described(const Json& line) {
@@ -182,9 +182,8 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   run.script_text = text_of_run_file(root / run_names::script);
   const std::string digest = Digester().add(run.script_text).hex();
   if (digest != member(script, "digest", file).string())
-    throw Error(ErrorCode::bad_file,
-                quoted((root / run_names::script).string()) + " is not the script that ran",
-                "it was altered since; run it as a script of its own");
+    refuse_bad_file(quoted((root / run_names::script).string()) + " is not the script that ran",
+                    "it was altered since; run it as a script of its own");
   for (const Json& argument : member(manifest, "arguments", file).list())
     run.arguments.push_back(argument.string());
   run.seed = static_cast<std::int64_t>(member(manifest, "seed", file).number());

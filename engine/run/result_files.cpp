@@ -209,8 +209,7 @@ void ResultFiles::ready_folder() {
   std::error_code problem;
   fs::create_directory(setup_.folder, problem);
   if (problem)
-    throw Error(ErrorCode::bad_file,
-                "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
+    refuse_bad_file("cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
   if (needed_on_disk_) return;
   for (const fs::path& file : setup_.needed) wait_for_disk(file);
   needed_on_disk_ = true;

@@ -32,9 +32,8 @@ std::pair<std::uint64_t, std::uint64_t> place_of(const fs::path& folder) {
 
 void RunDirectory::require_place() const {
   if (!root_.empty() && place_of(root_) != place_)
-    throw Error(ErrorCode::bad_file,
-                quoted(root_.string()) + " was moved or removed while the run wrote there",
-                "resume it with --resume at its new place");
+    refuse_bad_file(quoted(root_.string()) + " was moved or removed while the run wrote there",
+                    "resume it with --resume at its new place");
 }
 
 std::string_view name(RunStatus status) {

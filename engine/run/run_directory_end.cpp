@@ -49,8 +49,8 @@ void RunDirectory::require_recorded(const Json& outputs) const {
     if (found == now.end() || !(*found == entry)) unlike.push_back(quoted(file_of(entry)));
   }
   if (!unlike.empty())
-    throw Error(ErrorCode::bad_state, joined(unlike, " and ") + " could not be restored as recorded",
-                "the script or its inputs have changed");
+    refuse_state(joined(unlike, " and ") + " could not be restored as recorded",
+                 "the script or its inputs have changed");
 }
 
 // Restores the script for a resume.
@@ -59,14 +59,12 @@ void RunDirectory::require_own_files() const {
   std::error_code missing;
   if (!text_ && (!fs::is_regular_file(script, missing) || text_of_run_file(script) != script_text_)) {
     write_atomically(script, script_text_, Durable::yes);
-    throw Error(ErrorCode::bad_file,
-                quoted(script.string()) + " was altered or removed during the run, and is written again",
-                "resume the run with --resume");
+    refuse_bad_file(quoted(script.string()) + " was altered or removed during the run, and is written again",
+                    "resume the run with --resume");
   }
   if (journal_->is_altered())
-    throw Error(ErrorCode::bad_file,
-                quoted(journal_->path().string()) + " was altered by others while the run wrote it",
-                "its results are stored: resume the run with --resume");
+    refuse_bad_file(quoted(journal_->path().string()) + " was altered by others while the run wrote it",
+                    "its results are stored: resume the run with --resume");
 }
 
 // A trusted script may remove files.
@@ -81,13 +79,11 @@ void RunDirectory::require_present() const {
   for (const Input& input : inputs_)
     if (!input.copy.empty() && !scratch_) look(input.copy);
   if (!gone.empty())
-    throw Error(ErrorCode::bad_file,
-                joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") + " removed during the run",
-                "resume the run with --resume, which writes it again");
+    refuse_bad_file(joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") + " removed during the run",
+                    "resume the run with --resume, which writes it again");
   if (journal_->is_lost())
-    throw Error(ErrorCode::bad_file,
-                quoted(journal_->path().string()) + " was removed while the run wrote it",
-                "its results are stored: resume the run with --resume");
+    refuse_bad_file(quoted(journal_->path().string()) + " was removed while the run wrote it",
+                    "its results are stored: resume the run with --resume");
 }
 
 Json RunDirectory::outputs(bool with_digests) const {

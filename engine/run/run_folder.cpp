@@ -92,14 +92,13 @@ bool has_ended(const Json& holder) {
 }
 
 [[noreturn]] void throw_held(const fs::path& folder, const std::optional<Json>& holder, bool certain) {
-  throw Error(ErrorCode::bad_state,
-              asperity::quoted(folder.string()) + " is being written by " +
-                  (holder ? "process " + (*holder)["process"].text() + " on " + (*holder)["host"].string()
-                          : std::string("another process")),
-              certain
-                  ? "wait until it has ended, or give another directory"
-                  : "if it has ended, remove " + asperity::quoted((folder / RunLock::file_name).string()) +
-                        "; this file system has no locks");
+  refuse_state(asperity::quoted(folder.string()) + " is being written by " +
+                   (holder ? "process " + (*holder)["process"].text() + " on " + (*holder)["host"].string()
+                           : std::string("another process")),
+               certain
+                   ? "wait until it has ended, or give another directory"
+                   : "if it has ended, remove " + asperity::quoted((folder / RunLock::file_name).string()) +
+                         "; this file system has no locks");
 }
 
 constexpr std::string_view earlier_folder = "before-";
@@ -167,9 +166,8 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
     if (descriptor < 0 && errno == ENOENT && flags == 0) return nullptr;
     if (descriptor < 0 && errno == ELOOP) throw_link(file);
     if (descriptor < 0 && errno == EISDIR)
-      throw Error(ErrorCode::bad_file,
-                  asperity::quoted(file.string()) + " is a folder, and the lock of a run needs this name",
-                  "rename or remove the folder");
+      refuse_bad_file(asperity::quoted(file.string()) + " is a folder, and the lock of a run needs this name",
+                      "rename or remove the folder");
     if (descriptor < 0) throw_file_error("lock", file, errno);
     const std::shared_ptr<RunLock> lock(new RunLock(folder, descriptor));
     const int reason = lock->ask_patiently(ask);
@@ -184,8 +182,8 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
       return lock;
     }
   }
-  throw Error(ErrorCode::bad_file, asperity::quoted(file.string()) + " is replaced repeatedly",
-              "find the other program that writes there");
+  refuse_bad_file(asperity::quoted(file.string()) + " is replaced repeatedly",
+                  "find the other program that writes there");
 }
 
 // 0 if locked; error number without locks. Throws if another process has it.
@@ -311,8 +309,8 @@ std::string text_of_run_file(const fs::path& path) {
   std::error_code missing;
   // Opening a pipe would block.
   if (!fs::is_regular_file(path, missing) || ::access(path.c_str(), R_OK) != 0)
-    throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
-                "give the directory of a run, such as runs/quick_start-1");
+    refuse_bad_file("there is no " + quoted(path.string()) + " that can be read",
+                    "give the directory of a run, such as runs/quick_start-1");
   return text_of_file(path.string());
 }
 
@@ -373,9 +371,10 @@ void finish_moving_aside(const fs::path& folder) {
 }
 
 void throw_link(const fs::path& file) {
-  throw Error(ErrorCode::bad_file, quoted(file.string()) + " is a link",
-              file.filename() == run_names::store ? "name the other folder by `--store`, and remove the link"
-                                                  : "remove the link: a run writes its own files");
+  refuse_bad_file(quoted(file.string()) + " is a link",
+                  file.filename() == run_names::store
+                      ? "name the other folder by `--store`, and remove the link"
+                      : "remove the link: a run writes its own files");
 }
 
 void refuse_links(const fs::path& folder) {

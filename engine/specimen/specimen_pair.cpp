@@ -263,8 +263,7 @@ void SpecimenPair::carry(const State& state, const PressRequest& request) {
 PartialSlip SpecimenPair::shear(const ShearRequest& request, Monitor& monitor) {
   require_tangential(scene_.effects);
   if (pressed() == nullptr)
-    throw Error(ErrorCode::bad_state, "the contact carries no load, so nothing resists shear",
-                "press it first");
+    refuse_state("the contact carries no load, so nothing resists shear", "press it first");
   return asperity::shear(*solver(), *pressed(), request, monitor);
 }
 

@@ -56,10 +56,9 @@ double plane_strain_modulus(const Material& m) {
   if (m.rigid) return std::numeric_limits<double>::infinity();
   for (const auto& [value, key] : {std::pair{m.young, "young"}, std::pair{m.poisson, "poisson"}})
     if (!value)
-      throw Error(ErrorCode::bad_state,
-                  "the material " + (m.name.empty() ? std::string("given") : quoted(m.name)) + " has no " +
-                      quoted(key),
-                  "give it in lab.material{...}");
+      refuse_state("the material " + (m.name.empty() ? std::string("given") : quoted(m.name)) + " has no " +
+                       quoted(key),
+                   "give it in lab.material{...}");
   return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding near -1
 }
 

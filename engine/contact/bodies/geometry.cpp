@@ -149,20 +149,17 @@ double contact_modulus(const ContactGeometry& geometry, const std::string& needs
     const std::string wants = needs + " of the " + body + " body" + (purpose.empty() ? "" : " " + purpose) +
                               " (effect `elasticity`)";
     if (material == nullptr)
-      throw Error(ErrorCode::bad_state, wants + ", which has no material",
-                  "give `material=` to the surface" + also);
+      refuse_state(wants + ", which has no material", "give `material=` to the surface" + also);
     if (const std::optional<double> known = compliance(material)) return *known;
     const std::string called = material->name.empty() ? std::string("its material") : quoted(material->name);
-    throw Error(ErrorCode::bad_state,
-                wants + "; " + called + " has no " + quoted(material->young ? "poisson" : "young"),
-                "give it in lab.material{...}" + also + (is_flat ? ", or press with lab.rigid" : ""));
+    refuse_state(wants + "; " + called + " has no " + quoted(material->young ? "poisson" : "young"),
+                 "give it in lab.material{...}" + also + (is_flat ? ", or press with lab.rigid" : ""));
   };
   const double sum = needed(lower_material(geometry.lower()), "lower", false) +
                      needed(upper_material(geometry.upper()), "upper", geometry.upper_is_flat());
   if (!(sum > 0))
-    throw Error(ErrorCode::bad_state,
-                "both bodies are rigid, so there is no contact modulus E* (effect `elasticity`)",
-                "give one body an elastic material" + also);
+    refuse_state("both bodies are rigid, so there is no contact modulus E* (effect `elasticity`)",
+                 "give one body an elastic material" + also);
   return 1.0 / sum;
 }
 

@@ -13,9 +13,8 @@ namespace {
 
 void plan_interlocking(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   if (geometry.upper_is_flat())
-    throw Error(ErrorCode::bad_state,
-                "the effect `interlocking` needs two rough bodies, and the upper body is flat",
-                "give a surface as `upper`, or leave the effect out");
+    refuse_state("the effect `interlocking` needs two rough bodies, and the upper body is flat",
+                 "give a surface as `upper`, or leave the effect out");
   const double direction = std::any_cast<const InterlockingOptions&>(given).direction;
   plan.terms.push_back({"interlocking", "slopes of the contact towards " +
                                             format_short(direction * 180 / std::numbers::pi) +

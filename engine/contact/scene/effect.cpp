@@ -43,9 +43,8 @@ std::string effects_that(Effect::Acts acts) {
 }
 
 void refuse_without(const std::string& what, const std::string& quoted_effect, std::string hint) {
-  throw Error(ErrorCode::bad_state,
-              what + " needs the effect " + quoted_effect + ", which this scene does not name",
-              std::move(hint));
+  refuse_state(what + " needs the effect " + quoted_effect + ", which this scene does not name",
+               std::move(hint));
 }
 
 }  // namespace asperity

@@ -116,18 +116,14 @@ AtomicFile::AtomicFile(fs::path target, FileWords words) : target_(std::move(tar
   if (words_ == FileWords::data) {
     const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, ignored))
-      throw Error(ErrorCode::bad_file, "there is no directory " + name_of_data(folder) + " to write in",
-                  "make it first");
+      refuse_bad_file("there is no directory " + name_of_data(folder) + " to write in", "make it first");
     if (fs::is_directory(target_, ignored) || !target_.has_filename())
-      throw Error(ErrorCode::bad_file, name_of_data(target_) + " is a directory",
-                  "give the name of a file in it");
+      refuse_bad_file(name_of_data(target_) + " is a directory", "give the name of a file in it");
     if (fs::is_other(target_, ignored))
-      throw Error(ErrorCode::bad_file, name_of_data(target_) + " is not a plain file",
-                  "give the name of one");
+      refuse_bad_file(name_of_data(target_) + " is not a plain file", "give the name of one");
   } else if (fs::is_other(target_, ignored)) {
-    throw Error(ErrorCode::bad_file,
-                "cannot write " + quoted(target_.string()) + ": it is a device or a pipe",
-                "give the name of a file");
+    refuse_bad_file("cannot write " + quoted(target_.string()) + ": it is a device or a pipe",
+                    "give the name of a file");
   }
   temporary_ = part_beside(target_);
 }
@@ -163,10 +159,9 @@ int AtomicFile::close() {
 
 void AtomicFile::refuse(int reason, bool renaming) const {
   if (words_ == FileWords::run) throw_file_error("write", target_, reason);
-  throw Error(ErrorCode::bad_file,
-              name_of_data(target_) + " cannot be written" +
-                  (renaming ? ": " + std::generic_category().message(reason) : std::string()),
-              "check permission and space on the disk");
+  refuse_bad_file(name_of_data(target_) + " cannot be written" +
+                      (renaming ? ": " + std::generic_category().message(reason) : std::string()),
+                  "check permission and space on the disk");
 }
 
 void write_atomically(const fs::path& target, std::string_view content, Durable durable, unsigned mode) {

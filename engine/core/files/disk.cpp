@@ -41,8 +41,8 @@ std::string advice(int reason) {
 void throw_file_error(std::string_view action, const std::filesystem::path& path, int reason) {
   std::string text = std::generic_category().message(reason);
   if (!text.empty()) text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
-  throw Error(ErrorCode::bad_file,
-              "cannot " + std::string(action) + " " + quoted(path.string()) + ": " + text, advice(reason));
+  refuse_bad_file("cannot " + std::string(action) + " " + quoted(path.string()) + ": " + text,
+                  advice(reason));
 }
 
 ScopedFile::~ScopedFile() {
@@ -90,10 +90,9 @@ void wait_for_disk(const std::filesystem::path& file_or_folder) {
   // Some network file systems cannot sync a folder.
   if (file.number >= 0 && (::fsync(file.number) == 0 || errno == EINVAL)) return;
   const int reason = errno;
-  throw Error(ErrorCode::bad_file,
-              "cannot save " + quoted(file_or_folder.string()) +
-                  " on the disk: " + std::generic_category().message(reason),
-              "check the disk");
+  refuse_bad_file("cannot save " + quoted(file_or_folder.string()) +
+                      " on the disk: " + std::generic_category().message(reason),
+                  "check the disk");
 }
 
 }  // namespace asperity

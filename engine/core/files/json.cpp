@@ -77,9 +77,8 @@ namespace {
 [[noreturn]] void wrong_kind(std::string_view wanted, std::size_t found) {
   constexpr std::array<std::string_view, 7> kinds = {"nothing",  "a boolean", "a whole number", "a number",
                                                      "a string", "a list",    "an object"};
-  throw Error(ErrorCode::bad_file,
-              "a record holds " + std::string(kinds[found]) + " instead of " + std::string(wanted),
-              "the file was written by another program or damaged");
+  refuse_bad_file("a record holds " + std::string(kinds[found]) + " instead of " + std::string(wanted),
+                  "the file was written by another program or damaged");
 }
 }  // namespace
 
@@ -113,7 +112,7 @@ Json Json::parse(std::string_view text, std::string_view what) {
   // Destruction of nested lists is recursive, so the depth is limited.
   constexpr int deepest = 256;
   const auto refuse = [&](const std::string& finding) {
-    throw Error(ErrorCode::bad_file, std::string(what) + " " + finding, "the file was cut short or damaged");
+    refuse_bad_file(std::string(what) + " " + finding, "the file was cut short or damaged");
   };
   const auto look = [&](int depth, Library::parse_event_t, Library&) {
     if (depth > deepest) refuse("holds lists in lists deeper than " + std::to_string(deepest));

@@ -33,8 +33,7 @@ void read_to_end(std::ifstream& stream, const std::string& path, std::size_t exp
     bytes.resize(held + static_cast<std::size_t>(stream.gcount()));
     advance(stream.gcount());
   }
-  if (stream.bad())
-    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be read to its end", "check the disk");
+  if (stream.bad()) refuse_bad_file(file_name(path) + " cannot be read to its end", "check the disk");
 }
 
 }  // namespace
@@ -55,8 +54,7 @@ void require_room_for(const std::string& path, std::uintmax_t bytes) {
 
 std::string text_of_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be opened", "check that it may be read");
+  if (!stream) refuse_bad_file(file_name(path) + " cannot be opened", "check that it may be read");
   std::error_code unknown;
   const std::uintmax_t expected = std::filesystem::file_size(path, unknown);
   std::string text;
@@ -73,7 +71,7 @@ std::string file_extension(const std::string& path) {
 std::string file_name(const std::string& path) { return "\"" + path + "\""; }
 
 void refuse_file(const SourceFile& file, const std::string& finding, const std::string& hint) {
-  throw Error(ErrorCode::bad_file, file_name(file.path()) + " " + finding, hint);
+  refuse_bad_file(file_name(file.path()) + " " + finding, hint);
 }
 
 SourceFile::SourceFile(std::string path, Monitor& monitor)
@@ -82,18 +80,15 @@ SourceFile::SourceFile(std::string path, Monitor& monitor)
   std::error_code failure;
   const fs::file_status status = fs::status(path_, failure);
   if (status.type() == fs::file_type::not_found || path_.empty())
-    throw Error(ErrorCode::bad_file, "there is no file " + file_name(path_),
-                "check the path and its spelling");
+    refuse_bad_file("there is no file " + file_name(path_), "check the path and its spelling");
   if (status.type() == fs::file_type::directory)
-    throw Error(ErrorCode::bad_file, file_name(path_) + " is a directory", "give the path of a file in it");
+    refuse_bad_file(file_name(path_) + " is a directory", "give the path of a file in it");
   if (status.type() != fs::file_type::regular)
-    throw Error(ErrorCode::bad_file, file_name(path_) + " is not a plain file",
-                "give the path of a measured file");
+    refuse_bad_file(file_name(path_) + " is not a plain file", "give the path of a measured file");
   std::ifstream stream(path_, std::ios::binary);
-  if (!stream)
-    throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be opened", "check that it may be read");
+  if (!stream) refuse_bad_file(file_name(path_) + " cannot be opened", "check that it may be read");
   const std::uintmax_t expected = fs::file_size(path_, failure);
-  if (failure) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read");
+  if (failure) refuse_bad_file(file_name(path_) + " cannot be read");
   Task task(monitor, "reading", static_cast<std::int64_t>(expected));
   read_to_end(stream, path_, static_cast<std::size_t>(expected), bytes_,
               [&](std::streamsize read) { task.advance(read); });
@@ -111,7 +106,7 @@ SourceFile::SourceFile(std::string name, Array<char> bytes, std::string extensio
 }
 
 void SourceFile::refuse_empty() const {
-  if (bytes_.empty()) throw Error(ErrorCode::bad_file, file_name(path_) + " is empty", "write it again");
+  if (bytes_.empty()) refuse_bad_file(file_name(path_) + " is empty", "write it again");
 }
 
 std::string_view SourceFile::text() const {

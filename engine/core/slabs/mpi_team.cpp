@@ -76,9 +76,8 @@ std::unique_ptr<SlabFourier> MpiTeam::fourier(int nx, int ny) {
 std::unique_ptr<Team> team_of_mpi(const LoadedPart& part, int rank, int size) {
   const AsperitySlabs* const mpi = part_function<AsperitySlabsTable>(part, "asperity_slabs_1")();
   if (mpi == nullptr)
-    throw Error(ErrorCode::bad_state,
-                "one contact needs FFTW's MPI transforms to spread over ranks, and this program has none",
-                "install Debian's package libfftw3-mpi-dev and build again");
+    refuse_state("one contact needs FFTW's MPI transforms to spread over ranks, and this program has none",
+                 "install Debian's package libfftw3-mpi-dev and build again");
   return std::make_unique<MpiTeam>(*mpi, rank, size);
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -63,12 +62,12 @@ void require_scale(const SourceFile& file, const HeightMap& map, bool unit_known
   const bool lacks_unit_xy = !length_known && map.size_in_units;
   if (lacks_unit_xy) lacks("unit_xy");
   if (keys.empty()) return;
-  throw Error(ErrorCode::bad_value, file_name(file.path()) + " does not say " + joined(things, " and "),
-              "give " + joined(keys, " and ") + " in the call" +
-                  (unit_known ? "" : ": `unit` is the length of one number, such as \"um\"") +
-                  (!lacks_unit_xy ? ""
-                   : unit_known   ? ": the length of one number of a position, such as \"mm\""
-                                  : ", `unit_xy` that of a position, which may be another"));
+  refuse(file_name(file.path()) + " does not say " + joined(things, " and "),
+         "give " + joined(keys, " and ") + " in the call" +
+             (unit_known ? "" : ": `unit` is the length of one number, such as \"um\"") +
+             (!lacks_unit_xy ? ""
+              : unit_known   ? ": the length of one number of a position, such as \"mm\""
+                             : ", `unit_xy` that of a position, which may be another"));
 }
 
 // A contradiction to column names is an error.
@@ -76,12 +75,10 @@ std::optional<double> unit_of(const std::optional<double>& asked, const std::opt
                               const HeightMap& map, const SourceFile& file, const std::string& key,
                               Monitor& monitor) {
   if (map.named_columns && asked && found && differ(*asked, *found))
-    throw Error(ErrorCode::bad_value,
-                file_name(file.path()) + " names its columns with " +
-                    (key == "unit" ? "heights" : "positions") + " in units of " +
-                    format_quantity(*found, dimension::length) + ", and " + quoted(key) + " is " +
-                    format_quantity(*asked, dimension::length),
-                "leave " + quoted(key) + " out, or correct that line");
+    refuse(file_name(file.path()) + " names its columns with " + (key == "unit" ? "heights" : "positions") +
+               " in units of " + format_quantity(*found, dimension::length) + ", and " + quoted(key) +
+               " is " + format_quantity(*asked, dimension::length),
+           "leave " + quoted(key) + " out, or correct that line");
   return settled(asked, found, file, key, monitor);
 }
 
@@ -90,10 +87,9 @@ void positions_into_metres(HeightMap& map, const std::optional<double>& asked, c
                            Monitor& monitor) {
   if (!map.size_in_units) {
     if (asked)
-      throw Error(ErrorCode::bad_value,
-                  "`unit_xy` is " + format_quantity(*asked, dimension::length) + ", and " +
-                      file_name(file.path()) + " holds no positions, only heights",
-                  "leave it out: only x y z points and profiles in two columns have positions");
+      refuse("`unit_xy` is " + format_quantity(*asked, dimension::length) + ", and " +
+                 file_name(file.path()) + " holds no positions, only heights",
+             "leave it out: only x y z points and profiles in two columns have positions");
     return;
   }
   const std::optional<double> unit = unit_of(asked, map.position_unit, map, file, "unit_xy", monitor);
@@ -131,10 +127,9 @@ HeightMap read_map(const SourceFile& file, const std::string& forced, const std:
   std::vector<std::string> several;
   for (const Format* other : formats())
     if (other->read_channel != nullptr) several.emplace_back(other->name);
-  throw Error(ErrorCode::bad_value,
-              "`channel` is \"" + channel + "\", and " + file_name(file.path()) + " is of the format " +
-                  quoted(format.name) + ", which holds one map",
-              "leave `channel` out; files of " + joined(several, " and ") + " may hold several maps");
+  refuse("`channel` is \"" + channel + "\", and " + file_name(file.path()) + " is of the format " +
+             quoted(format.name) + ", which holds one map",
+         "leave `channel` out; files of " + joined(several, " and ") + " may hold several maps");
 }
 
 void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx, double hy,

@@ -25,11 +25,10 @@ constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
 
 [[noreturn]] void refuse_extension(const std::string& path, const std::string& known) {
   const std::string extension = file_extension(path);
-  throw Error(ErrorCode::bad_file,
-              extension.empty()
-                  ? file_name(path) + " has no extension to name the format"
-                  : "cannot write " + file_name(path) + ": no format has the extension ." + extension,
-              "use " + known);
+  refuse_bad_file(extension.empty()
+                      ? file_name(path) + " has no extension to name the format"
+                      : "cannot write " + file_name(path) + ": no format has the extension ." + extension,
+                  "use " + known);
 }
 
 void write_npy(const std::string& path, const std::string& shape, std::span<const double> values, int rows,

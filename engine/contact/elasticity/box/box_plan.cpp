@@ -48,9 +48,8 @@ void BoxOperator::plan(const ContactGeometry& geometry, Plan& plan) const {
 void BoxOperator::plan_after_effects(const ContactGeometry& geometry, Plan& plan) const {
   if (!plan.yield || !plan.yield->limits()) {
     if (!std::isfinite(modulus))
-      throw Error(ErrorCode::bad_state,
-                  "rigid bodies carry a load only where they yield, and their `hardness` is infinite",
-                  "give a finite `hardness`, or name another elasticity");
+      refuse_state("rigid bodies carry a load only where they yield, and their `hardness` is infinite",
+                   "give a finite `hardness`, or name another elasticity");
     return;
   }
   const std::size_t nodes = geometry.grid().nodes();
