@@ -12,7 +12,9 @@
 namespace asperity {
 
 Accuracy companion_accuracy(const Accuracy& given, double tolerance) {
-  return {std::max(given.tolerance, tolerance), given.precision, false, Accuracy::OnFailure::best};
+  return {.tolerance = std::max(given.tolerance, tolerance),
+          .precision = given.precision,
+          .on_failure = Accuracy::OnFailure::best};
 }
 
 std::string cells_text(int nx, int ny) { return std::to_string(nx) + " x " + std::to_string(ny) + " cells"; }
