@@ -34,9 +34,9 @@ ends_soon() {
   how=$1
   shift
   # mpirun waits so many seconds before SIGTERM and again before SIGKILL, whatever has ended meanwhile. One, its default,
-  # is short for a rank that records where it was interrupted while the machine builds something.
+  # is short for a rank that records where it was interrupted while the machine builds something: with a load of 4, 13.
   patience=1
-  [ "$how" != interrupt ] || patience=5
+  [ "$how" != interrupt ] || patience=$((5 + 2 * $(cut -d. -f1 /proc/loadavg)))
   OMPI_MCA_odls_base_sigkill_timeout=$patience mpirun --oversubscribe --bind-to none -n 2 \
     "$program" run long.lua --threads 1 --out "$how" > "$how.txt" 2>&1 &
   launcher=$!
