@@ -19,7 +19,6 @@ namespace {
 constexpr int digits = 6;
 constexpr std::size_t most_events = 10'000'000;
 
-// format_quantity has no minutes and hours.
 std::string duration(double seconds) {
   const auto whole = [](double count) { return count >= 1 && count == std::round(count); };
   if (const double hours = seconds / 3600; hours >= 2 && whole(hours)) return format_short(hours) + " h";
