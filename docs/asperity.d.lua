@@ -1319,7 +1319,7 @@ function Stylus:closed(surface) end
 
 ---@class asperity.options.protocol.apply
 ---@field columns string[] `event` (its number), `kind`, `press` (its number), quantities of a State, roughness of the bodies ("lower.Ra") or parameters of the traces ("trace.Ra"), with a unit or without (string[], required)
----@field trace? table traces on the lower body after each event: { stylus=, count=1, seed=1 } (table)
+---@field trace? table traces on the lower body after each event: { stylus=, count=1, seed=1, section= }; a section gives the parameters of ISO 21920-2, such as trace.Rz (table)
 
 ---@class asperity.options.protocol.repeated
 ---@field repeats integer number of repeats of the protocol (integer at least 1, required)
@@ -2070,7 +2070,7 @@ function lab.contact(options) end
 ---@return asperity.Law
 function lab.friction(options) end
 
----A stage that is raised until the specimen slides, T(W cos a) = W sin a.
+---The friction angle: a stage is raised until the specimen slides, T(W cos a) = W sin a.
 ---@param options asperity.options.lab.tilt_stage
 ---@return asperity.TiltStage
 function lab.tilt_stage(options) end

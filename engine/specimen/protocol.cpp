@@ -19,11 +19,11 @@ namespace {
 constexpr int digits = 6;
 constexpr std::size_t most_events = 10'000'000;
 
-// format_quantity has no minutes.
 std::string duration(double seconds) {
-  const double minutes = seconds / 60;
-  return minutes >= 1 && minutes == std::round(minutes) ? format_short(minutes) + " min"
-                                                        : format_quantity(seconds, dimension::time, digits);
+  const auto whole = [](double count) { return count >= 1 && count == std::round(count); };
+  if (const double hours = seconds / 3600; hours >= 2 && whole(hours)) return format_short(hours) + " h";
+  return whole(seconds / 60) ? format_short(seconds / 60) + " min"
+                             : format_quantity(seconds, dimension::time, digits);
 }
 
 std::string load_text(const PressRequest& request) {

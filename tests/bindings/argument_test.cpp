@@ -30,7 +30,7 @@ TEST_F(FromFunction, ErrorsOfAnyKindAreReported) {
   EXPECT_EQ(run(from_function("error('no')")), failed + "script.lua:1: no");
   EXPECT_EQ(run(from_function("error('no', 0)")), failed + "no");
   EXPECT_EQ(run(from_function("error()")), failed + "nothing (nil)");
-  EXPECT_EQ(run(from_function("error({})")), failed + "a table");
+  EXPECT_EQ(run(from_function("error({})")), failed + "an empty table");
   EXPECT_EQ(run(from_function("error(42)")), failed + "the number 42");
   EXPECT_EQ(run(from_function("error(lab.rigid)")), failed + "a material");
   EXPECT_EQ(
@@ -42,7 +42,7 @@ TEST_F(FromFunction, WrongResultsAreNamed) {
   const std::string hint = "; it must return a number";
   EXPECT_EQ(run(from_function("")), returned + "nothing (nil)" + hint);
   EXPECT_EQ(run(from_function("return '1'")), returned + "the string \"1\"" + hint);
-  EXPECT_EQ(run(from_function("return { 1 }")), returned + "a table" + hint);
+  EXPECT_EQ(run(from_function("return { 1 }")), returned + "a list of 1" + hint);
   EXPECT_EQ(run(from_function("return true")), returned + "the boolean true" + hint);
   EXPECT_EQ(run(from_function("return 1, error")), "");  // further results are dropped
 }
@@ -113,10 +113,11 @@ TEST_F(Phases, FailuresAreReported) {
   EXPECT_EQ(run(start + "function() error('no phase') end }"),
             "script.lua:1: lab.surface.weierstrass_mandelbrot: the function `phases` failed: script.lua:1: "
             "no phase");
-  EXPECT_EQ(run(start + "function() return {} end }"),
-            "script.lua:1: lab.surface.weierstrass_mandelbrot: the function `phases` returned a table; it "
-            "must return "
-            "a number");
+  EXPECT_EQ(
+      run(start + "function() return {} end }"),
+      "script.lua:1: lab.surface.weierstrass_mandelbrot: the function `phases` returned an empty table; it "
+      "must return "
+      "a number");
   EXPECT_NE(run(start + "function() return 0/0 end }"), "");
   EXPECT_NE(run(start + "'silver' }")
                 .find("`phases` is the string \"silver\"; give \"golden\" or a function(m, n)"),

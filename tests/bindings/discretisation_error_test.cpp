@@ -140,9 +140,10 @@ TEST_F(AccuracyOfContact, KeysThatDoNotGoTogether) {
       "well, such as error=0.01");
   EXPECT_EQ(run("contact{ error=1 }"),
             "script.lua:3: lab.contact: `accuracy`: `error` is 1; give a number from 1e-06 and below 1");
-  EXPECT_EQ(run("contact{ error=0.01, of={} }"),
-            "script.lua:3: lab.contact: `accuracy`: `of` is a table; give a name such as \"approach\", or a "
-            "list of them");
+  EXPECT_EQ(
+      run("contact{ error=0.01, of={} }"),
+      "script.lua:3: lab.contact: `accuracy`: `of` is an empty table; give a name such as \"approach\", or a "
+      "list of them");
   EXPECT_NE(run("contact{ error=0.01, of='aproach' }").find("whose error is not estimated"),
             std::string::npos);
 }

@@ -57,6 +57,16 @@ TEST_F(Help, AQuestionFindsSentences) {
   EXPECT_NE(help_text("how do I turn").find("contact:rotate: "), std::string::npos);
   EXPECT_NE(help_text("Which function reads a press log?").find("lab.protocol.read: "), std::string::npos);
   EXPECT_THROW(help_text("how do I"), Error);
+  for (const auto& [question, first] : {std::pair{"turn a surface", "surface:rotated"},
+                                        {"load a measured map", "lab.surface.read"},
+                                        {"save a table", "table:write"},
+                                        {"friction angle", "lab.tilt_stage"},
+                                        {"fit a line", "table:fit"},
+                                        {"roughness of a trace", "profile:roughness"}}) {
+    const std::string text = help_text(question);
+    EXPECT_EQ(text.substr(text.find('\n')).rfind("\n  " + std::string(first) + ": ", 0), 0u) << text;
+  }
+  EXPECT_TRUE(help_text("layer").starts_with("`layer` is part of"));
 }
 
 TEST_F(Help, ClassesThatFunctionsReturnExist) {

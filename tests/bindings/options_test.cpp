@@ -60,8 +60,9 @@ TEST_F(Options, KeysThatAreNotNamesAreRefused) {
             "script.lua:1: lab.surface.flat: a key is the boolean true; keys are names; the keys are cells, "
             "size and "
             "material");
-  EXPECT_NE(run("lab.surface.flat{ [{}]=1, cells=4, size=1 }").find("a key is a table; keys are names"),
-            std::string::npos);
+  EXPECT_NE(
+      run("lab.surface.flat{ [{}]=1, cells=4, size=1 }").find("a key is an empty table; keys are names"),
+      std::string::npos);
   EXPECT_NE(
       run("lab.surface.flat{ [2.5]=1, cells=4, size=1 }").find("position 2.5 holds a value without a key"),
       std::string::npos);
@@ -145,7 +146,7 @@ TEST_F(Options, WholeNumbersMustBeWhole) {
   EXPECT_NE(run("lab.surface.flat{ cells={4, 4, 4}, size=1 }").find("give a whole number or {nx, ny}"),
             std::string::npos);
   EXPECT_NE(run("lab.surface.flat{ cells={4, -1}, size=1 }").find("`cells` is -1"), std::string::npos);
-  EXPECT_NE(run("lab.surface.flat{ cells={}, size=1 }").find("`cells` is a table"), std::string::npos);
+  EXPECT_NE(run("lab.surface.flat{ cells={}, size=1 }").find("`cells` is an empty table"), std::string::npos);
   EXPECT_NE(run("lab.surface.weierstrass_mandelbrot{ cells=4, D=2.5, seed=-1 }").find("`seed` is -1"),
             std::string::npos);
 }

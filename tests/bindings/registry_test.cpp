@@ -166,7 +166,7 @@ TEST_F(Method, NeedsAColonAndAValueOfItsClass) {
   EXPECT_EQ(run("s.height(lab.rigid, 2)"),
             "script.lua:1: surface:height was called on a material, not on a surface" + hint);
   EXPECT_EQ(run("s.height({}, 2)"),
-            "script.lua:1: surface:height was called on a table, not on a surface" + hint);
+            "script.lua:1: surface:height was called on an empty table, not on a surface" + hint);
   EXPECT_EQ(run("s.height(io.stdout, 2)"),
             "script.lua:1: surface:height was called on a userdata, not on a surface" + hint);
 }
@@ -183,7 +183,7 @@ TEST_F(Method, RefusesSurplusArguments) {
 TEST_F(Method, NamesItsPositionalArguments) {
   run("s = lab.surface.flat{ cells=4, size=1 }");
   EXPECT_EQ(run("s:height(1)"), "script.lua:1: surface:height: `j` is nothing (nil); give a number");
-  EXPECT_EQ(run("s:height('1', {})"), "script.lua:1: surface:height: `j` is a table; give a number");
+  EXPECT_EQ(run("s:height('1', {})"), "script.lua:1: surface:height: `j` is an empty table; give a number");
   EXPECT_EQ(run("s:plus(lab.rigid)"), "script.lua:1: surface:plus: `other` is a material; give a surface");
   EXPECT_EQ(run("s:write(12)"), "script.lua:1: surface:write: `path` is the number 12; give a string");
 }
@@ -198,7 +198,7 @@ TEST_F(LabModule, AnUnknownNameOfTheLaboratoryIsAnErrorWithTheNearest) {
             "lab.help \"lab.surface\" lists its members");
   EXPECT_EQ(run("local x = lab.units.Nm2").rfind("script.lua:1: lab.units has no field `Nm2`", 0), 0u);
   EXPECT_EQ(run("local x = lab[3]").rfind("script.lua:1: lab has no field the number 3", 0), 0u);
-  EXPECT_EQ(run("local x = lab[{}]").rfind("script.lua:1: lab has no field a table", 0), 0u);
+  EXPECT_EQ(run("local x = lab[{}]").rfind("script.lua:1: lab has no field an empty table", 0), 0u);
 }
 
 TEST_F(LabModule, GoesThroughPairsAndCannotBeChanged) {

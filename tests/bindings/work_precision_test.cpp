@@ -86,7 +86,7 @@ TEST_F(WorkPrecisionTest, AnErrorAndNoAnswerAreFailedRows) {
 
 TEST_F(WorkPrecisionTest, RefusesAnAnswerThatIsNoNumber) {
   const std::string head = "lab.work_precision{ truth=1, try={ { name='a', n=1 } }, ask=function() return ";
-  EXPECT_TRUE(refuses(head + "{ 1, 2 } end }", "`ask` returned a table for { n=1 }; return one number"));
+  EXPECT_TRUE(refuses(head + "{ 1, 2 } end }", "`ask` returned a list of 2 for { n=1 }; return one number"));
   EXPECT_TRUE(refuses(head + "'1' end }", "`ask` returned the string \"1\""));
   EXPECT_TRUE(refuses(head + "true end }", "`ask` returned the boolean true"));
   EXPECT_TRUE(refuses(head + "lab.rigid end }", "`ask` returned a material"));
@@ -96,15 +96,15 @@ TEST_F(WorkPrecisionTest, RefusesWrongKeys) {
   const std::string ask = "ask=function() return 1 end";
   EXPECT_TRUE(refuses("lab.work_precision{ " + ask + ", truth=1, tri={} }", "did you mean `try`?"));
   EXPECT_TRUE(refuses("lab.work_precision{ " + ask + ", try={ { name='a' } } }", "`truth` is missing"));
-  EXPECT_TRUE(
-      refuses("lab.work_precision{ " + ask + ", truth=1, try={} }", "`try` is a table; give a list of ways"));
+  EXPECT_TRUE(refuses("lab.work_precision{ " + ask + ", truth=1, try={} }",
+                      "`try` is an empty table; give a list of ways"));
   EXPECT_TRUE(
       refuses("lab.work_precision{ " + ask + ", truth=1, try={ { n=1 } } }", "`try[1]` has no `name`"));
   EXPECT_TRUE(
       refuses("lab.work_precision{ " + ask + ", truth=1, try={ { name='a', n={1, 2}, m={1, 2, 3} } } }",
               "the way `a` lists 3 values of `m` and 2 of `n`"));
   EXPECT_TRUE(refuses("lab.work_precision{ " + ask + ", truth=1, try={ { name='a', n={ {1, 2} } } } }",
-                      "`try[1].n[1]` is a table; give a number, a string or a boolean"));
+                      "`try[1].n[1]` is a list of 2; give a number, a string or a boolean"));
   EXPECT_TRUE(refuses("lab.work_precision{ " + ask + ", truth=1, try={ { name='a', n={ x=1 } } } }",
                       "`try[1].n` is not a list"));
   EXPECT_TRUE(refuses("lab.work_precision{ " + ask + ", truth=1, try={ { name='a', seconds=1 } } }",

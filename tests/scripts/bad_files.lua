@@ -36,6 +36,8 @@ for _, length in ipairs{ 5, 9, 20, 100, #npy - 1 } do
   refused(function() S.read(cut, { size="1 mm", unit="m" }) end, "cut.npy")
 end
 
+assert(io.open("a.txt", "w")):write("1 2\n3 x\n"):close()
+refused(function() S.read("a.txt", { size=1 }) end, 'surface.read: "a.txt" has no number in line 2')
 refused(function() S.read "nothere.npy" end, 'there is no file "nothere.npy"')
 refused(function() S.read "/" end, "is a directory")
 refused(function() S.read(folder .. "/good.npy") end, "give `size` and `unit` in the call")

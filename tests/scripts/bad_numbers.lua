@@ -33,7 +33,10 @@ refused(function() s:filtered{} end, "a filter needs `short_wave` or `long_wave`
 refused(function() s:filtered{ short_wave=1, long_wave=0.1 } end, "`short_wave` 1 m is not below `long_wave`")
 refused(function() s:levelled{ degree=9 } end, "`degree` is 9")
 refused(function() s:cut{ fraction=2 } end, "`fraction` is 2")
-refused(function() s:fractal_dimension{ steps={ 1 } } end, "`steps` is a table; give a list of two or more")
+refused(function() s:fractal_dimension{ steps={ 1 } } end, "`steps` is a list of 1; give a list of two or more")
+refused(function() S.flat{ cells={ 64 }, size=1 } end, "`cells` is a list of 1")
+refused(function() S.from_function{ cells=4, size=1, height=function() error{ code=3 } end } end, "failed: ", "code=", "3")
+refused(function() return s.Ra end, "no field `Ra`; write `surface:roughness().Ra`")
 -- Values just inside the limits are accepted.
 W{ cells=1, D=2, n_max=3501 }
 W{ cells={ 1, 7 }, D=3, n_max=0 }

@@ -29,7 +29,7 @@ refused(function() S.bead_blasted{ cells=128, size="500 um", ra="3 um", dent="20
 refused(function() S.bead_blasted{ cells=8, size="500 um", ra="3 um" } end, "give more `cells`")
 refused(function() S.bead_blasted{ cells=25, size="500 um", ra="3 um" } end, "the fine texture: `short_wave` is 16 um")
 refused(function() S.bead_blasted{ cells=128, size="500 um", ra="3 MPa", coverage=0, bead={ 1, 2, 3 } } end,
-  "3 problems", "`ra`: ", "`coverage` is 0", "`bead` is a table")
+  "3 problems", "`ra`: ", "`coverage` is 0", "`bead` is a list of 3")
 
 -- The instrument.
 local stylus = lab.stylus{ length="1 mm" }

@@ -32,6 +32,18 @@ for event, st in protocol:on(c) do
   assert(row["lower.Ra"] == c:lower():roughness().Ra and math.abs(row["trace.Rq"] / (sum / 3) - 1) < 1e-12)
 end
 assert(n == 4 and done[3].press == 2 and done[2].press == nil)
+-- The traces cross waves of 2 um from peak to valley.
+local waves = lab.surface.from_function{ cells=512, size="1 mm", material=lab.material "Al-2011",
+  height=function(x) return 1e-6 * math.sin(2 * math.pi * x / 62.5e-6) end }
+local fine = lab.stylus{ tip="0.5 um", spacing="0.5 um", length="0.8 mm" }
+local traced = lab.protocol{ { release=true } }:apply(
+  lab.contact{ lower=waves, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } },
+  { columns={ "trace.Rz", "trace.Ra" }, trace={ stylus=fine, seed=1, section="0.25 mm" } })
+assert(math.abs(traced[1]["trace.Rz"] / 2e-6 - 1) < 0.03 and math.abs(traced[1]["trace.Ra"] * math.pi / 2e-6 - 1) < 0.03)
+refused(function() protocol:apply(pair(), { columns={ "trace.Ra" }, trace={ stylus=stylus, section=0 } }) end, "`trace.section`")
+local state = pair():press{ pressure="10 MPa" }
+refused(function() state:field() end, "give pressure, gap, contact, displacement or plastic")
+refused(function() return pair().area_fraction end, "a state, from contact:press, has it")
 refused(function() protocol:apply(pair(), { columns={ "lover.Ra" } }) end, "did you mean `lower`?")
 refused(function() protocol:apply(pair(), { columns={ "trace.Ra" } }) end, "needs a stylus")
 

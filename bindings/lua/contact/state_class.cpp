@@ -56,7 +56,7 @@ Dimension field_dimension(const std::string& name) {
 
 Values field(Call& call) {
   const Contacting& state = call.self<Contacting>();
-  const std::string name = call.text(1, "name");
+  const std::string name = call.text(1, "name", joined(asperity::State::field_names()));
   return {object(NamedField{name, state.grid(), state.field(name), field_dimension(name)})};
 }
 

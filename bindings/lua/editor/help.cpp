@@ -325,8 +325,7 @@ std::string hits_help(const std::string& asked, const std::vector<Topic>& topics
   if (found == 0) return "";
   by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
   constexpr std::size_t most = 40;
-  std::string text =
-      beside ? quoted(asked) + " is part of\n" : "nothing is called " + quoted(asked) + "; it is part of\n";
+  std::string text = quoted(asked) + " is part of\n";
   for (std::size_t k = 0; k < std::min(found, most); ++k) text += "  " + by_name[k] + "\n";
   if (found > most) text += "  and " + std::to_string(found - most) + " more\n";
   return text;
@@ -353,26 +352,40 @@ std::vector<std::string> stems_of(const std::string& question) {
   return stems;
 }
 
-// Topics with the rarest words; "" for a single word.
+// Topics with the rarest words; "" for a single word. Words of the last name and of the sentence's beginning
+// count twice. Values, results and their fields (in capitals) count half.
 std::string question_help(const std::string& asked, const std::vector<Topic>& topics) {
   if (asked.find(' ') == std::string::npos) return "";
-  std::vector<std::pair<double, std::size_t>> scores;
-  for (std::size_t k = 0; k < topics.size(); ++k) scores.emplace_back(0, k);
+  static const std::vector<std::pair<std::string_view, std::string>> synonyms = {
+      {"load", "read"},   {"open", "read"},     {"save", "write"},
+      {"map", "surface"}, {"trace", "profile"}, {"line", "curve"}};
+  struct Score {
+    double score;
+    std::size_t length, topic;
+    auto operator<=>(const Score&) const = default;
+  };
+  std::vector<Score> scores;
+  for (const Topic& topic : topics) scores.push_back({0, topic.name.size(), scores.size()});
   for (const std::string& stem : stems_of(asked)) {
-    std::vector<std::size_t> hits;
+    const auto same = std::ranges::find_if(
+        synonyms, [&](const auto& pair) { return stem.size() > 2 && pair.first.starts_with(stem); });
+    const auto has = [&](const std::string& text) {
+      const std::string lower = lower_case(text);
+      return has_word(lower, stem) || (same != synonyms.end() && has_word(lower, same->second));
+    };
+    std::vector<std::pair<std::size_t, double>> hits;
     for (std::size_t k = 0; k < topics.size(); ++k)
-      if (has_word(lower_case(topics[k].name + " " + topics[k].sentence), stem)) hits.push_back(k);
-    for (const std::size_t k : hits) {
-      const bool by_name = has_word(lower_case(last_name(topics[k].name)), stem);
-      scores[k].first -= (by_name ? 2 : 1) / std::sqrt(static_cast<double>(hits.size()));
-    }
+      if (const auto& [name, text, sentence, exact, field] = topics[k]; has(name + " " + sentence))
+        hits.emplace_back(k, (has(last_name(name) + " " + sentence.substr(0, 24)) ? -2 : -1) *
+                                 (std::isupper(static_cast<unsigned char>(name[0])) != 0 ? 0.5 : 1));
+    for (const auto& [k, weight] : hits)
+      scores[k].score += weight / std::sqrt(static_cast<double>(hits.size()));
   }
   std::ranges::sort(scores);
-  constexpr std::size_t most = 8;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(most, scores.size()) && scores[k].first < 0; ++k)
-    text += "  " + topics[scores[k].second].name + ": " + topics[scores[k].second].sentence + "\n";
-  return text.empty() ? text : "nearest to " + quoted(asked) + " are\n" + text;
+  std::string found;
+  for (std::size_t k = 0; k < std::min<std::size_t>(8, scores.size()) && scores[k].score < 0; ++k)
+    found += "  " + topics[scores[k].topic].name + ": " + topics[scores[k].topic].sentence + "\n";
+  return found.empty() ? "" : "nearest to " + quoted(asked) + " are\n" + found;
 }
 
 // --- the reference page

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/argument.hpp"
 
+#include <algorithm>
+
 #include "bindings/lua/registry/declarations.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
@@ -77,8 +79,12 @@ std::string Argument::describe() const {
       if (text().size() > 40) shown += "…";
       return "the string \"" + shown + "\"";
     }
-    case LUA_TTABLE:
-      return "a table";
+    case LUA_TTABLE: {
+      std::int64_t values = 0;
+      each([&](const Argument&, const Argument&) { ++values; });
+      if (values == 0) return "an empty table";
+      return values == length() ? "a list of " + std::to_string(values) : "a table";
+    }
     case LUA_TFUNCTION:
       return "a function";
     case LUA_TTHREAD:
@@ -121,8 +127,17 @@ Argument Callback::called(int arguments, std::string_view key) const {
   if (lua_pcall(L, arguments, 1, 0) != LUA_OK) {
     stop_flag().check();
     const Argument error(L, -1);
+    std::vector<std::string> fields;
+    if (error.is_table())
+      error.each([&](const Argument& name, const Argument& value) {
+        fields.push_back((name.is_text() ? std::string(name.text()) : "[" + name.describe() + "]") + "=" +
+                         value.describe());
+      });
+    std::ranges::sort(fields);
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " failed: " +
-                                          (error.is_text() ? std::string(error.text()) : error.describe()));
+                                          (error.is_text()  ? std::string(error.text())
+                                           : fields.empty() ? error.describe()
+                                                            : "a table: " + joined(fields, ", ")));
   }
   return Argument(L, -1);
 }

@@ -10,6 +10,7 @@
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/embedded.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
 
@@ -162,7 +163,12 @@ std::string where(lua_State* L) {
 
 std::string message_of(lua_State* L, const std::string& name, const Error& error) {
   if (error.code() == ErrorCode::interrupted) return where(L) + "interrupted";
-  const std::string text = error.what();
+  std::string text = error.what();
+  // Files of the run as the script names them.
+  if (const Session* session = Session::find(L); session != nullptr && session->run != nullptr)
+    if (const std::string folder = session->run->path().string() + "/"; folder.size() > 1)
+      for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;)
+        text.erase(at, folder.size());
   return where(L) + (text.starts_with(name) || name.empty() ? text : name + ": " + text);
 }
 

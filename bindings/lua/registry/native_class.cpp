@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/library.hpp"
@@ -27,6 +29,23 @@ Value item_of(const Object& self, std::int64_t k) {
   return self.type->item(self.pointer.get(), k);
 }
 
+// The method whose result has the field, if any, as a hint.
+std::string given_by(const Class& type, std::string_view field) {
+  const auto has = [&](const std::vector<Getter>& fields) {
+    return std::ranges::find(fields, field, &Getter::name) != fields.end();
+  };
+  for (const Function& method : type.methods) {
+    const RecordInfo* record = find_record_type(method.returns);
+    if (record != nullptr && has(record->fields))
+      return "write `" + qualified_name(method) + (method.options ? "{…}." : "().") + std::string(field) +
+             "`";
+    const Class* result = find_class(method.returns);
+    if (result != nullptr && result != &type && has(result->fields))
+      return result->article_name + ", from " + qualified_name(method) + ", has it";
+  }
+  return "";
+}
+
 int guarded_field(lua_State* L, const Class& type) {
   return guarded(L, "", [&]() -> Values {
     const Argument key(L, 2);
@@ -46,9 +65,10 @@ int guarded_field(lua_State* L, const Class& type) {
       for (const Value& value : values) check_declared(field.name, field.type, value);
       return values;
     }
-    throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +
-                                             quoted(key.text().substr(0, 40)) +
-                                             meant_by(key.text(), type.names()));
+    const std::string meant = meant_by(key.text(), type.names());
+    throw Error(ErrorCode::unknown_name,
+                type.article_name + " has no field " + quoted(key.text().substr(0, 40)) + meant,
+                meant.empty() ? given_by(type, key.text()) : "");
   });
 }
 

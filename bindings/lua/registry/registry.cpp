@@ -52,10 +52,10 @@ double Call::quantity(int k, std::string_view name, Dimension dimension) const {
   return *number;
 }
 
-std::string Call::text(int k, std::string_view name) const {
+std::string Call::text(int k, std::string_view name, const std::string& wanted) const {
   const Argument value = argument(k);
   if (!value.is_text())
-    throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give a string");
+    throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give " + wanted);
   return std::string(value.text());
 }
 

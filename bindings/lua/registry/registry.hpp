@@ -45,7 +45,7 @@ class Call {
 
   double number(int k, std::string_view name) const;
   double quantity(int k, std::string_view name, Dimension dimension) const;
-  std::string text(int k, std::string_view name) const;
+  std::string text(int k, std::string_view name, const std::string& wanted = "a string") const;
   template <class T>
   const T& object(int k, std::string_view name) const {
     return *static_cast<const T*>(object_pointer(k, name, class_of<T>()));

@@ -61,13 +61,18 @@ FieldValue field_at(lua_State* L, int index, const std::string& field) {
   return found;
 }
 
-// The result of a method without arguments.
-void push_result(lua_State* L, const Value& value, const char* method) {
+// value:roughness(), or value:profile_parameters{ section= }.
+void push_roughness(lua_State* L, const Value& value, std::optional<double> section = {}) {
   push_with(L, [&](lua_State* s) {
     push(s, value);
-    lua_getfield(s, -1, method);
+    lua_getfield(s, -1, section ? "profile_parameters" : "roughness");
     lua_pushvalue(s, -2);
-    lua_call(s, 1, 1);
+    if (section) {
+      lua_createtable(s, 0, 1);
+      lua_pushnumber(s, *section);
+      lua_setfield(s, -2, "section");
+    }
+    lua_call(s, section ? 2 : 1, 1);
     return 1;
   });
 }
@@ -114,7 +119,7 @@ void StateTable::add(Call& call, const Turn& turn) {
   const int state = pushed(turn.state), event = pushed(turn.event);
   std::vector<std::pair<std::string, int>> owners;  // on the stack
   const auto roughness_of = [&](const char* owner, const Surface& body) {
-    push_result(L, object(Surface(body)), "roughness");
+    push_roughness(L, object(Surface(body)));
     owners.emplace_back(owner, lua_gettop(L));
   };
   if (needs("lower")) roughness_of("lower", turn.pair->lower());
@@ -123,7 +128,7 @@ void StateTable::add(Call& call, const Turn& turn) {
     const StylusScan scan =
         traces_.stylus->scan(turn.pair->lower(), traces_.count, traces_.seed, call.session().monitor());
     for (const Profile& trace : scan.traces) {
-      push_result(L, object(Profile(trace)), "roughness");
+      push_roughness(L, object(Profile(trace)), traces_.section);
       owners.emplace_back("trace", lua_gettop(L));
     }
   }
@@ -182,11 +187,17 @@ void read_trace(const Argument& value, const OptionInfo& info, ApplyKeys& keys, 
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { stylus=stylus, count=5, seed=1 }", problems);
   value.each([&](const Argument& key, const Argument& given) {
-    static const std::vector<std::string> names = {"stylus", "count", "seed"};
+    static const std::vector<std::string> names = {"stylus", "count", "seed", "section"};
     const std::string name(key.is_text() ? key.text() : "");
     const Object* stylus = name == "stylus" ? given.as_object(class_of<Stylus>()) : nullptr;
     const std::int64_t whole = given.is_number() ? given.integer().value_or(-1) : -1;
     if (given.is_unknown()) return;
+    if (name == "section") {
+      OptionInfo length = info;
+      length.name = "trace.section", length.dimension = dimension::length;
+      keys.trace.section = detail::read_quantity(given, length, above(0), problems);
+      return;
+    }
     if (stylus != nullptr)
       keys.trace.stylus = std::static_pointer_cast<Stylus>(stylus->pointer);
     else if (name == "count" && whole >= 1 && whole <= 1'000'000)
@@ -210,7 +221,10 @@ const Block<ApplyKeys>& apply_block() {
              read_texts(value, info, keys.columns, problems);
            })
            .required(),
-       custom<K>("trace", "table", "traces on the lower body after each event: { stylus=, count=1, seed=1 }",
+       custom<K>("trace", "table",
+                 "traces on the lower body after each event: { stylus=, count=1, seed=1, section= }; a "
+                 "section gives "
+                 "the parameters of ISO 21920-2, such as trace.Rz",
                  read_trace)}};
   return block;
 }

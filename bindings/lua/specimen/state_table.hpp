@@ -18,6 +18,7 @@ struct TraceKeys {
   std::shared_ptr<Stylus> stylus;  // null without traces
   int count = 1;
   std::uint64_t seed = 1;
+  std::optional<double> section;  // of ISO 21920-2; without it, of the unfiltered trace
 };
 
 // Collects rows. A column is a field of a State, a field of an event (`event`, `kind`, `press`), a roughness

@@ -167,12 +167,13 @@ std::string describe_stage(const TiltStage& stage) {
 }  // namespace
 
 Function tilt_stage_function() {
-  return {.name = "tilt_stage",
-          .body = make_stage,
-          .sentence = "A stage that is raised until the specimen slides, T(W cos a) = W sin a.",
-          .options = &stage_block,
-          .returns = "TiltStage",
-          .example = "local stage = lab.tilt_stage{ contact=c, friction=law, mass=\"4.3 g\" }"};
+  return {
+      .name = "tilt_stage",
+      .body = make_stage,
+      .sentence = "The friction angle: a stage is raised until the specimen slides, T(W cos a) = W sin a.",
+      .options = &stage_block,
+      .returns = "TiltStage",
+      .example = "local stage = lab.tilt_stage{ contact=c, friction=law, mass=\"4.3 g\" }"};
 }
 
 template <>
