@@ -1,5 +1,4 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- All old names of a script at once.
 --! command: check
 --! exit: 1
 --! error: check_old_names.lua:14: notebook:fit: `model` is function(x, …); parameters come first: function(q, row)
@@ -7,7 +6,8 @@
 --! error: check_old_names.lua:16: protocol:apply: a state has no field `contacts`, which is called `nodes_in_contact` now
 --! error: check_old_names.lua:17: a state has no field `contacts`, which is called `nodes_in_contact` now
 local lab = require "asperity"
-local c = lab.contact{ lower=lab.surface.flat{ cells=4096, size=1 }, upper=lab.rigid, effects={ elasticity="half_space" } }
+local c = lab.contact{ lower=lab.surface.flat{ cells=4096, size=1 }, upper=lab.rigid, boundary="periodic",
+  effects={ elasticity="half_space" } }
 local p = lab.protocol{ { press={ pressure="1 MPa" } } }
 local b = lab.notebook "b"
 b:write{ x=1, y=2 }
