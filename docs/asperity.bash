@@ -13,9 +13,9 @@ _asperity() {
     press-log) options="--help --area --skip --columns --turn-step --specimen --seed --limit-time --out --trace --threads --limit-memory" ;;
     accuracy) options="--help --seed --limit-time --out --trace --threads --limit-memory --knob --trust --at-most --repeats --truth" ;;
     serve) options="--help --port --open --lessons --out --runs --limit-time --limit-memory --classroom --students --names" ;;
-    check) options="--help --seed --limit-time --knob" ;;
-    explain) options="--help --seed --limit-time --knob --json" ;;
-    cases) options="--help --seed --limit-time --knob --list" ;;
+    check) options="--help --seed --limit-time --knob --trace" ;;
+    explain) options="--help --seed --limit-time --knob --trace --json" ;;
+    cases) options="--help --seed --limit-time --knob --trace --list" ;;
     status) options="--help" ;;
     repl) options="--help --out --threads --limit-memory --seed --limit-time --no-history --trust" ;;
     lesson) options="--help --copy --run --lessons --out --trace --threads --limit-memory" ;;

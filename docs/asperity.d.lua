@@ -378,7 +378,7 @@
 ---@field spread number standard deviation of tan(held) over the trials; 0 for one trial
 ---@field slipped boolean whether every trial slid; otherwise angle, held and mu are lower bounds
 ---@field trials asperity.TiltTrial[] each event, in order
----@field area_per_load number|nil corrected real contact area over the load, 1/Pa: mean over the trials; nil but on a half-space
+---@field area_per_load number|nil corrected real contact area over the load: mean over the trials; nil but on a half-space (1/Pa)
 ---@field probe_spread number|nil greatest relative distance of mu at one probe from the mean of its trial: the possible error of the extrapolation to the weight; nil if the weight was solved, with one probe, and for boxes
 ---@field solved_at_weight boolean whether a half-space was solved under the weight itself
 ---@field probes asperity.TiltProbe[] those of all trials that solved anew
@@ -394,7 +394,7 @@
 ---@class asperity.TiltProbe
 ---@field pressure number at which it was solved, level (Pa)
 ---@field nodes_in_contact integer nodes in contact
----@field area_per_load number corrected real contact area over the load, 1/Pa
+---@field area_per_load number corrected real contact area over the load (1/Pa)
 ---@field mu number friction over load, its adhesive part on the corrected area
 
 ---Slip inside a contact at an angle of the stage.

@@ -80,6 +80,17 @@ package.searchers[2] = function(name)
   return chunk, file
 end
 
+-- Lua's own wrap puts a second line before the message.
+local create, resume, close = coroutine.create, coroutine.resume, coroutine.close
+function coroutine.wrap(body)
+  local thread = create(body)
+  local function results(done, ...)
+    if not done then close(thread) error((...), 0) end
+    return ...
+  end
+  return function(...) return results(resume(thread, ...)) end
+end
+
 local lab = require "asperity"
 function help(topic) print(lab.help(topic)) end
 
@@ -121,53 +132,42 @@ if not trusted then
     end
     return open(path, mode)
   end
-  -- All reads resolve and record their file here.
-  local function source(path)
+  local lines, input = io.lines, io.input
+  -- Reads record their file here. A file that cannot be opened is an error at the script's line.
+  local function readable(path)
     if type(path) ~= "string" then return path end
     local place, message = host.input_path(path)
-    if not place then fail(message) end
-    return place
-  end
-  local lines, input = io.lines, io.input
-  -- A file that cannot be opened is an error at the script's line.
-  local function readable(path)
-    local place = source(path)
-    if type(place) == "string" then
-      local file, message = open(place)
-      if not file then fail(message) end
-      file:close()
-    end
+    local file = place
+    if place then file, message = open(place) end
+    if not file then fail(message) end
+    file:close()
     return place
   end
   function io.lines(path, ...) return lines(readable(path), ...) end
   function io.input(file, ...) return input(readable(file), ...) end
-  local output = io.output
+  local output, opened = io.output, io.open
   function io.output(file)
-    if type(file) == "string" then
-      local handle, message = open(destination(file, "/dev/null"), "w")
-      if not handle then fail(message) end
-      host.settled()
-      return output(handle)
-    end
-    return output(file)
+    if type(file) ~= "string" then return output(file) end
+    local handle, message = opened(file, "w")
+    if not handle then fail(message) end
+    return output(handle)
   end
   local remove, rename = os.remove, os.rename
+  local function settled(place, done, ...)
+    if done then host.settled(place) end
+    return done, ...
+  end
   function os.remove(path)
     local place = destination(path)
     if host.dry then return true end
-    local done, message, code = remove(place)
-    if done then host.settled(place) end
-    return done, message, code
+    return settled(place, remove(place))
   end
   function os.rename(from, to)
     local old, new = destination(from), destination(to)
     if host.dry then return true end
-    local done, message, code = rename(old, new)
-    if done then host.settled(old) end
-    return done, message, code
+    return settled(old, rename(old, new))
   end
 
-  -- Chunks are text.
   function load(chunk, name, _, ...)
     if select("#", ...) > 0 then return load_any(chunk, name, "t", (...)) end
     return load_any(chunk, name, "t")

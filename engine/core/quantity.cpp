@@ -34,29 +34,24 @@ constexpr double vickers = 9806650;  // Pa; HV counts kgf/mm²
 // kip, mil and atm have no prefix. Common units first: the first of equally near names is suggested.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
-    {"\u00B5m", dimension::length, 1, 1, -6}, {"\u03BCm", dimension::length, 1, 1, -6},
     {"mm", dimension::length, 1, 1, -3},      {"nm", dimension::length, 1, 1, -9},
     {"pm", dimension::length, 1, 1, -12},     {"cm", dimension::length, 1, 1, -2},
     {"km", dimension::length, 1, 1, 3},       {"in", dimension::length, 254, 1, -4},
     {"g", dimension::mass, 1, 1, -3},         {"kg", dimension::mass, 1, 1, 0},
     {"mg", dimension::mass, 1, 1, -6},        {"ug", dimension::mass, 1, 1, -9},
-    {"\u00B5g", dimension::mass, 1, 1, -9},   {"\u03BCg", dimension::mass, 1, 1, -9},
     {"t", dimension::mass, 1, 1, 3},          {"s", dimension::time, 1, 1, 0},
     {"min", dimension::time, 60, 1, 0},       {"h", dimension::time, 3600, 1, 0},
     {"ms", dimension::time, 1, 1, -3},        {"us", dimension::time, 1, 1, -6},
-    {"\u00B5s", dimension::time, 1, 1, -6},   {"\u03BCs", dimension::time, 1, 1, -6},
     {"ns", dimension::time, 1, 1, -9},        {"N", dimension::force, 1, 1, 0},
     {"kN", dimension::force, 1, 1, 3},        {"MN", dimension::force, 1, 1, 6},
     {"mN", dimension::force, 1, 1, -3},       {"uN", dimension::force, 1, 1, -6},
-    {"\u00B5N", dimension::force, 1, 1, -6},  {"\u03BCN", dimension::force, 1, 1, -6},
     {"nN", dimension::force, 1, 1, -9},       {"pN", dimension::force, 1, 1, -12},
     {"Pa", dimension::pressure, 1, 1, 0},     {"MPa", dimension::pressure, 1, 1, 6},
     {"GPa", dimension::pressure, 1, 1, 9},    {"kPa", dimension::pressure, 1, 1, 3},
     {"hPa", dimension::pressure, 1, 1, 2},    {"bar", dimension::pressure, 1, 1, 5},
     {"mbar", dimension::pressure, 1, 1, 2},   {"J", dimension::energy, 1, 1, 0},
     {"kJ", dimension::energy, 1, 1, 3},       {"mJ", dimension::energy, 1, 1, -3},
-    {"uJ", dimension::energy, 1, 1, -6},      {"\u00B5J", dimension::energy, 1, 1, -6},
-    {"\u03BCJ", dimension::energy, 1, 1, -6}, {"nJ", dimension::energy, 1, 1, -9},
+    {"uJ", dimension::energy, 1, 1, -6},      {"nJ", dimension::energy, 1, 1, -9},
     {"pJ", dimension::energy, 1, 1, -12},     {"fJ", dimension::energy, 1, 1, -15},
     {"rad", dimension::angle, 1, 1, 0},       {"mrad", dimension::angle, 1, 1, -3},
     {"deg", dimension::angle, pi, 180, 0},    {"\u00B0", dimension::angle, pi, 180, 0},
@@ -98,17 +93,18 @@ class Reader {
     if (!rest_.empty() && (rest_[0] == '+' || rest_[0] == '-')) rest_.remove_prefix(1);
     const std::size_t whole = skip_digits();
     std::size_t fraction = 0;
-    if (!rest_.empty() && rest_[0] == '.') {
-      rest_.remove_prefix(1);
-      fraction = skip_digits();
-    }
+    if (take(".")) fraction = skip_digits();
     if (whole + fraction == 0)
       refuse(text_, "no number at its start", "write a number and a unit, such as \"250 um\"");
     mantissa_ = start.substr(0, start.size() - rest_.size());
     if (mantissa_[0] == '+') mantissa_.remove_prefix(1);
     read_exponent();
-    if (!rest_.empty() && rest_[0] == ',')
-      refuse(text_, "a comma inside a number", "write the decimal sign as a point, such as \"1.5 mm\"");
+    if (rest_.empty() || (rest_[0] != ',' && rest_[0] != '\'')) return;
+    std::string number(start);
+    const bool thousands = rest_[0] == '\'' || number.rfind('.') + 1 > number.rfind(',') + 1;
+    std::erase_if(number, [](char c) { return c == ',' || c == '\''; });
+    refuse(text_, thousands ? "a separator of thousands" : "a comma inside a number",
+           thousands ? "write \"" + number + "\"" : "write the decimal sign as a point, such as \"1.5 mm\"");
   }
 
   void take_number_one() { mantissa_ = "1"; }
@@ -132,12 +128,8 @@ class Reader {
     const auto out_of_range = [&] {
       refuse(text_, "the value is outside the range of numbers", "check its exponent");
     };
-    Quantity quantity;
-    for (const auto& [member, power] : {std::pair{&Dimension::length, powers_[0]},
-                                        {&Dimension::mass, powers_[1]},
-                                        {&Dimension::time, powers_[2]},
-                                        {&Dimension::angle, powers_[3]}})
-      quantity.dimension.*member = static_cast<std::int8_t>(power);
+    const auto power = [&](int k) { return static_cast<std::int8_t>(powers_[k]); };
+    Quantity quantity{0, {power(0), power(1), power(2), power(3)}};
     const bool decimal = numerator_ == denominator_;
     const auto read = [&](long exponent) {
       const std::string number = std::string(mantissa_) + "e" + std::to_string(exponent);
@@ -297,7 +289,8 @@ class Reader {
     } else {
       refuse(text_, "cannot read a unit from " + shown(rest_, longest_shown));
     }
-    const std::string_view known = name == "\u00B5in" || name == "\u03BCin" ? "uin" : name;
+    std::string known(name);
+    if (known.starts_with("\u00B5") || known.starts_with("\u03BC")) known.replace(0, 2, "u");
     const auto* const unit = std::ranges::find(units, known, &Unit::name);
     if (unit == std::end(units)) refuse_unknown(name);
     // "640 HV10" (ISO 6507): test load in kgf, not a power.
@@ -311,6 +304,9 @@ class Reader {
     if (name == "HK" || name == "HB" || name == "HBW")
       refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
              "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
+    if (name == "rpm") refuse(text_, "unknown unit `rpm`", "60 rpm is \"1 Hz\" or \"60 rev/min\"");
+    if (name == "K" || name == "C" || name == "\u00B0C")
+      refuse(text_, "temperatures have no unit", "write a plain number in K: 293.15 for 20 \u00B0C");
     std::vector<std::string> names;
     for (const Unit& unit : units)
       if (unit.name != "1") names.emplace_back(unit.name);
@@ -372,6 +368,7 @@ const std::vector<Kind>& kinds() {
       {dimension::angle, "an angle", "37 deg", "rad", "deg"},
       {dimension::force, "a force", "5 N", "N", "pN nN uN mN N kN MN"},
       {dimension::pressure, "a pressure", "152.78 MPa", "Pa", "Pa kPa MPa GPa"},
+      {{1, -1, 2, 0}, "an area per force", "1 um^2/mN", "1/Pa", "1/TPa 1/GPa 1/MPa 1/kPa 1/Pa"},
       {dimension::stiffness, "a stiffness per area", "80 MPa/um", "Pa/m",
        "Pa/m kPa/m MPa/m GPa/m MPa/um GPa/um"},
       {dimension::energy, "an energy", "1 nJ", "J", "fJ pJ nJ uJ mJ J kJ"},
@@ -398,7 +395,9 @@ DisplayUnit display_unit_for(double magnitude, Dimension dimension, int digits) 
     const auto si = std::ranges::find(shown, 1, &DisplayUnit::factor);
     return si == shown.end() ? shown.front() : *si;
   }
+  // Far below the smallest prefix: SI.
   DisplayUnit best = shown.front();
+  if (shown.size() > 1 && magnitude < 1e-3 * best.factor) return {std::string(kind->si_unit), 1};
   // 1000 of one unit, as printed, becomes 1 of the next.
   const double prints_as_one = 1 - 0.5 * elementary::pow(10.0, -digits);
   for (const DisplayUnit& unit : shown)

@@ -40,7 +40,7 @@ void Notebook::order_columns(const std::vector<std::string>& columns) {
                  "give their order where the notebook is first opened");
   Table ordered;
   for (const std::string& column : columns) {
-    const auto [name, unit, mean_of] = split_column_unit(column);
+    const auto [name, unit, mean_of, plain] = split_column_unit(column);
     if (!ordered.declare_column(name))
       throw Error(ErrorCode::bad_value, "`columns` names " + quoted(name) + " twice",
                   "give each column one place");

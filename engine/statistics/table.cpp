@@ -9,7 +9,6 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/table_head.hpp"
 
@@ -96,20 +95,19 @@ std::string csv_number(double si, const std::string& unit) {
 }
 
 std::string csv_cell(const Cell& cell, const std::string& unit) {
-  if (is_number(cell) && !unit.empty()) return csv_number(*number_in(cell), unit);
-  if (const double* number = std::get_if<double>(&cell)) return csv_number(*number, unit);
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
+  if (std::holds_alternative<double>(cell) || (is_number(cell) && !unit.empty()))
+    return csv_number(*number_in(cell), unit);
   if (const std::string* text = std::get_if<std::string>(&cell)) return csv_text(*text);
   return is_empty(cell) ? std::string() : short_text(cell);
 }
 
 void check_unit(const TableColumn& column, std::string_view unit) {
-  const Dimension given = parse_unit(unit).dimension;
-  if (column.unit.empty() || parse_unit(column.unit).dimension == given) return;
+  const Dimension given = parse_unit(unit).dimension, own = parse_unit(column.unit).dimension;
+  if ((column.unit.empty() && !column.plain) || own == given) return;
   throw Error(ErrorCode::bad_unit,
-              "column " + quoted(column.name) + " is " + describe(parse_unit(column.unit).dimension) +
-                  " in " + column.unit + ", not " + describe(given),
-              "give the other quantity a column of its own");
+              "column " + quoted(column.name) + " is " + describe(own) + ", and " + quoted(unit) +
+                  " is a unit of " + describe(given),
+              "write " + quoted(column.name + " [" + (column.unit.empty() ? "%" : column.unit) + "]"));
 }
 
 }  // namespace
@@ -149,12 +147,8 @@ std::size_t Table::column(std::string_view name, std::string_view key) const {
   }
   const std::vector<std::string> names = column_names();
   const std::string near = did_you_mean(name, names);
-  std::string hint;
-  if (names.empty()) {
-    hint = "nothing is written in " + name_ + " yet";
-  } else if (near.empty()) {
-    hint = "its columns are " + joined(names, " and ");
-  }
+  std::string hint = near.empty() ? "its columns are " + joined(names, " and ") : "";
+  if (names.empty()) hint = "nothing is written in " + name_ + " yet";
   throw Error(ErrorCode::unknown_name,
               quoted(key) + " names " + quoted(name) + ", which is no column of " + name_ + near, hint);
 }
@@ -199,6 +193,8 @@ std::vector<Entry> Table::resolved(std::span<const Entry> row) const {
 
 std::size_t Table::place(std::string_view name) {
   if (const auto known = find_column(name)) return *known;
+  if (name.empty())
+    throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
   columns_.push_back({std::string(name), {}});
   return columns_.size() - 1;
 }
@@ -220,22 +216,22 @@ bool Table::append(std::span<const Entry> row) {
 }
 
 bool Table::declare_column(std::string_view column) {
-  if (column.empty())
-    throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
   const std::size_t before = columns_.size();
   place(column);
   return columns_.size() != before;
 }
 
+void Table::declare_dimension(std::string_view column, Dimension dimension) {
+  TableColumn& declared = columns_[place(column)];
+  declared.unit = si_unit(dimension);
+  declared.plain = dimension == dimension::number;
+}
+
 bool Table::declare_unit(std::string_view column, std::string_view unit) {
-  if (column.empty())
-    throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
   const std::size_t before = columns_.size();
   const std::size_t k = place(column);
   check_unit(columns_[k], unit);
-  if (columns_[k].unit == unit) return columns_.size() != before;
-  columns_[k].unit = unit;
-  return true;
+  return std::exchange(columns_[k].unit, std::string(unit)) != unit || columns_.size() != before;
 }
 
 std::string Table::digest() const {
@@ -258,18 +254,16 @@ std::string Table::csv_header() const {
   std::string line;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const TableColumn& column = columns_[k];
-    if (k > 0) line += ',';
-    line += csv_text(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+    line += (k > 0 ? "," : "") +
+            csv_text(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
   }
   return line + "\n";
 }
 
 std::string Table::csv_row(std::size_t row) const {
   std::string line;
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    if (k > 0) line += ',';
-    line += csv_cell(cell(row, k), columns_[k].unit);
-  }
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    line += (k > 0 ? "," : "") + csv_cell(cell(row, k), columns_[k].unit);
   return line + "\n";
 }
 

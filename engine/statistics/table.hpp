@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/quantity.hpp"
+
 namespace asperity {
 
 // Empty, number in SI, boolean, text, whole number.
@@ -40,6 +42,7 @@ struct TableColumn {
   std::string name;
   std::string unit;          // for display
   std::string mean_of = {};  // the averaged column
+  bool plain = false;        // numbers without a unit, not numbers in SI
 };
 
 // "load [N]", "load[N]", "load (N)" and "load / N" give `load` and N. Unknown units stay in the name.
@@ -79,6 +82,7 @@ class Table {
   bool append(std::span<const Entry> row);
   // True for a new column. Throws Error{bad_value} for an empty name.
   bool declare_column(std::string_view column);
+  void declare_dimension(std::string_view column, Dimension dimension);
   // Sets the display unit; adds a missing column. True for a new header. Throws Error{bad_unit} for another
   // dimension.
   bool declare_unit(std::string_view column, std::string_view unit);

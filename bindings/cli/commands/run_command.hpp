@@ -35,6 +35,7 @@ Command run_command(BehindBarriers<RunCommand> barriers);
 int run(const RunCommand& command);
 // Exit status as in run().
 int check(const RunCommand& command);
+std::string without_calls(const std::string& why);  // names --trace in place of a traceback
 
 struct RunContext {
   const RunCommand& command;

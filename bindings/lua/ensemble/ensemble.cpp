@@ -36,7 +36,7 @@ struct EnsembleKeys {
   };
   std::optional<std::vector<Varied>> over;  // sorted by key
   std::optional<std::vector<Values>> cases;
-  std::vector<std::pair<std::string, std::string>> units;  // of names such as "Ra [um]"
+  Table units;  // of names such as "Ra [um]"
   OnFailure on_failure = OnFailure::error;
 
   std::size_t count() const {
@@ -80,8 +80,7 @@ CaseValue read_value(EnsembleKeys& keys, std::string_view key, const Argument& v
                      const std::string& path) {
   const TableColumn column = split_column_unit(key);
   if (column.unit.empty() || !value.is_number()) return read_value(std::string(key), value, path);
-  const std::pair unit(column.name, column.unit);
-  if (std::ranges::find(keys.units, unit) == keys.units.end()) keys.units.push_back(unit);
+  keys.units.declare_unit(column.name, column.unit);
   const Argument::StackGuard guard(value.state());
   lua_pushnumber(value.state(), from_unit(value.number(), column.unit));
   CaseValue read = read_value(column.name, Argument(value.state(), -1), path);
@@ -388,7 +387,7 @@ Values ensemble(Call& call) {
     if (!failed.empty() && keys.on_failure == OnFailure::error) refuse_failures(call, keys, results, failed);
     List rows, failures;
     rows.rows = failures.rows = true;
-    rows.units = keys.units;
+    for (const TableColumn& column : keys.units.columns()) rows.units.emplace_back(column.name, column.unit);
     for (const std::size_t k : failed) {
       Map failure;
       failure.items.emplace_back("index", static_cast<std::int64_t>(k) + 1);

@@ -139,6 +139,13 @@ int next_of(lua_State* L) {
   });
 }
 
+// Raises the error of a guarded function.
+template <int (*guarded_function)(lua_State*)>
+int raising(lua_State* L) {
+  const int results = guarded_function(L);
+  return results < 0 ? lua_error(L) : results;
+}
+
 // it:table{…}
 int guarded_table(lua_State* L) {
   static const std::string nothing;
@@ -154,11 +161,6 @@ int guarded_table(lua_State* L) {
   });
 }
 
-int iterator_table(lua_State* L) {
-  const int results = guarded_table(L);
-  return results < 0 ? lua_error(L) : results;
-}
-
 int guarded_iterator_index(lua_State* L) {
   static const std::string nothing;
   return guarded(L, nothing, [&]() -> Values {
@@ -166,23 +168,13 @@ int guarded_iterator_index(lua_State* L) {
     const Argument key(L, 2);
     const bool known = block != nullptr && *block != nullptr;
     if (known && key.is_text() && key.text() == "table" && ((*block)->table || Session::of(L).dry_run))
-      return {Value(Value::Function(iterator_table))};
+      return {Value(Value::Function(raising<guarded_table>))};
     const std::string name = known ? (*block)->name : "an iterator";
     throw Error(ErrorCode::unknown_name,
                 name + " gives an iterator, and " + (key.is_text() ? quoted(key.text()) : key.describe()) +
                     " was read from it",
                 "write for ... in " + name + "(...) do");
   });
-}
-
-int iterator_index(lua_State* L) {
-  const int results = guarded_iterator_index(L);
-  return results < 0 ? lua_error(L) : results;
-}
-
-int iterator_call(lua_State* L) {
-  const int results = next_of(L);
-  return results < 0 ? lua_error(L) : results;
 }
 
 // Warns of an iterator without a loop; ignores errors of the warning.
@@ -219,8 +211,8 @@ void open_results(lua_State* L) {
   static const luaL_Reg of_record[] = {{"__index", record_index},        {"__newindex", record_new_index},
                                        {"__tostring", record_to_string}, {"__pairs", record_pairs},
                                        {"__gc", record_release},         {nullptr, nullptr}};
-  static const luaL_Reg of_iterator[] = {{"__call", iterator_call},
-                                         {"__index", iterator_index},
+  static const luaL_Reg of_iterator[] = {{"__call", raising<next_of>},
+                                         {"__index", raising<guarded_iterator_index>},
                                          {"__gc", iterator_release},
                                          {"__close", iterator_release},
                                          {nullptr, nullptr}};

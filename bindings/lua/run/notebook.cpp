@@ -27,10 +27,9 @@ struct NotebookKeys {
 
 const Block<NotebookKeys>& notebook_block() {
   static const Block<NotebookKeys> block{
-      {custom<NotebookKeys>("columns", "string[]",
-                            "the names of columns in the order in which they stand, with units or without",
-                            [](const Argument& value, const OptionInfo& info, NotebookKeys& keys,
-                               Problems& problems) { read_texts(value, info, keys.columns, problems); })
+      {texts_key("columns", "string[]",
+                 "the names of columns in the order in which they stand, with units or without",
+                 &NotebookKeys::columns)
            .defaults_to("in the order of the rows that first have them, and by name within a row"),
        custom<NotebookKeys>(
            "units", "table", "display units of columns, as in { p=\"MPa\" }",
@@ -87,6 +86,7 @@ void look_at_columns(const Call& call) {
                       did_you_mean(name, std::vector<std::string>(columns->begin(), columns->end())));
   };
   const Argument first = call.argument(1);
+  if (call.function_name().ends_with(":histogram")) look_at_histogram(call);
   look(first);
   for (const char* key : {"x", "y"})
     if (first.is_table())

@@ -64,7 +64,7 @@ void add_cells(std::vector<Entry>& row, const Argument& given) {
   std::ranges::sort(row, {}, &Entry::column);
 }
 
-void add_cells(std::vector<Entry>& row, lua_State* L, const Record& record) {
+void add_cells(std::vector<Entry>& row, lua_State* L, const Record& record, Table& table) {
   for (const Record::Entry& entry : record.entries) {
     const Argument::StackGuard guard(L);
     auto push_value = [&entry](lua_State* s) {
@@ -73,8 +73,11 @@ void add_cells(std::vector<Entry>& row, lua_State* L, const Record& record) {
     };
     if (protect(L, 0, 1, push_value) != LUA_OK)
       throw Error(ErrorCode::out_of_memory, "there is no memory for a table");
-    if (const auto cell = cell_of(Argument(L, -1)))
-      row.push_back({entry.field, *cell, is_number(*cell) ? si_unit(entry.dimension) : ""});
+    const auto cell = cell_of(Argument(L, -1));
+    if (!cell) continue;
+    if (is_number(*cell) && !table.find_column(entry.field))
+      table.declare_dimension(entry.field, entry.dimension);
+    row.push_back({entry.field, *cell, is_number(*cell) ? si_unit(entry.dimension) : ""});
   }
 }
 
@@ -102,15 +105,6 @@ std::vector<NumberWithUnit> numbers_with_units(const Argument& rows) {
 
 constexpr const char* units_key = "units";
 
-// Name and unit of each column.
-void each_unit(const Argument& rows, const std::function<void(std::string_view, std::string_view)>& take) {
-  const Argument::StackGuard guard(rows.state());
-  if (luaL_getmetafield(rows.state(), rows.index(), units_key) != LUA_TTABLE) return;
-  Argument(rows.state(), -1).each([&](const Argument& name, const Argument& unit) {
-    take(name.text(), unit.text());
-  });
-}
-
 }  // namespace
 
 Table table_of_rows(const Call& call, const Argument& rows) {
@@ -120,7 +114,7 @@ Table table_of_rows(const Call& call, const Argument& rows) {
     rows.element(k, [&](const Argument& given) {
       std::vector<Entry> row;
       if (const auto record = record_at(call.L, given.index()))
-        add_cells(row, call.L, *record);
+        add_cells(row, call.L, *record, table);
       else if (given.is_table())
         add_cells(row, given);
       else
@@ -128,9 +122,11 @@ Table table_of_rows(const Call& call, const Argument& rows) {
                     "a row is a table of columns, such as { N=1, mu=0.4 }");
       if (!row.empty()) table.append(row);
     });
-  each_unit(rows, [&](std::string_view name, std::string_view unit) {
-    if (table.find_column(name)) table.declare_unit(name, unit);
-  });
+  const Argument::StackGuard guard(rows.state());
+  if (luaL_getmetafield(rows.state(), rows.index(), units_key) == LUA_TTABLE)
+    Argument(rows.state(), -1).each([&](const Argument& name, const Argument& unit) {
+      if (table.find_column(name.text())) table.declare_unit(name.text(), unit.text());
+    });
   if (table.columns().empty())
     throw Error(ErrorCode::bad_value, "the list holds no row with a number, a string or a boolean",
                 "give a table or a notebook, or a list of rows such as { { N=1, mu=0.4 } }");
@@ -140,9 +136,12 @@ Table table_of_rows(const Call& call, const Argument& rows) {
 void set_row_methods(lua_State* L, const std::vector<std::pair<std::string, std::string>>& units) {
   static const luaL_Reg methods[] = {
       {"__index", rows_index}, {"__tostring", rows_to_string}, {nullptr, nullptr}};
-  int status = LUA_OK;
-  {
+  int status = LUA_ERRRUN;
+  try {
     const std::vector<NumberWithUnit> moved = numbers_with_units(Argument(L, -1));
+    Table declared;
+    for (const auto& [name, unit] : units) declared.declare_unit(name, unit);
+    for (const NumberWithUnit& number : moved) declared.declare_unit(number.name, number.unit);
     auto action = [&](lua_State* state) {
       lua_createtable(state, 0, 4);
       luaL_setfuncs(state, methods, 0);
@@ -153,9 +152,8 @@ void set_row_methods(lua_State* L, const std::vector<std::pair<std::string, std:
         lua_pushlstring(state, unit.data(), unit.size());
         lua_setfield(state, -2, name.c_str());
       };
-      for (const auto& [name, unit] : units) declare(name, unit);
+      for (const TableColumn& column : declared.columns()) declare(column.name, column.unit);
       for (const NumberWithUnit& number : moved) {
-        declare(number.name, number.unit);
         lua_rawgeti(state, 1, number.row);
         lua_pushnil(state);
         lua_setfield(state, -2, number.key.c_str());
@@ -169,6 +167,8 @@ void set_row_methods(lua_State* L, const std::vector<std::pair<std::string, std:
     };
     lua_pushvalue(L, -1);
     status = protect(L, 1, 0, action);
+  } catch (const Error& error) {
+    fail(L, message_of(L, "lab.ensemble", error));
   }
   if (status != LUA_OK) lua_error(L);
 }

@@ -38,6 +38,8 @@ Function say_function();
 // table_statistics.cpp
 Function mean_method();
 Function histogram_method();
+// Refuses a table in place of the column.
+void look_at_histogram(const Call& call);
 const RecordInfo& histogram_type();
 // table_fit.cpp
 Function fit_method();

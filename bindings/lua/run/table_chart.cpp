@@ -33,21 +33,6 @@ void read_interval(const Argument& value, const OptionInfo& info, C& c, Problems
   c.high = names[1];
 }
 
-void read_place(const Argument& value, const std::string& name, std::optional<ExpectedValue>& place,
-                Problems& problems) {
-  if (value.is_nil() || value.is_unknown()) return;
-  try {
-    if (value.is_number())
-      place = value.number();
-    else if (value.is_text())
-      place = ExpectedValue(value.text());
-    else
-      problems.push_back(quoted(name) + " is " + value.describe() + "; give a number or a quantity");
-  } catch (const Error& error) {
-    problems.push_back(quoted(name) + ": " + error.what());
-  }
-}
-
 void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& problems) {
   static const std::vector<std::string> keys = {"x", "y", "name"};
   const std::string place = "lines[" + std::to_string(k) + "]";
@@ -63,9 +48,9 @@ void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& pro
     const std::string_view name = key.text();
     unknown = unknown || given.is_unknown();
     if (name == "x") {
-      read_place(given, place + ".x", line.x, problems);
+      read_expected(given, place + ".x", line.x, problems);
     } else if (name == "y") {
-      read_place(given, place + ".y", line.y, problems);
+      read_expected(given, place + ".y", line.y, problems);
     } else if (name == "name" && given.is_text()) {
       line.name = given.text();
     } else if (name == "name") {
@@ -128,11 +113,8 @@ std::vector<Option<C>> panel_keys(bool first) {
   auto x = text("x", &C::x, "the column along");
   std::vector<Option<C>> keys;
   keys.push_back(first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"));
-  keys.push_back(custom<C>("y", "string|string[]", "the column, or columns of one unit, up",
-                           [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
-                             read_texts(value, info, c.y, problems);
-                           })
-                     .required());
+  keys.push_back(
+      texts_key("y", "string|string[]", "the column, or columns of one unit, up", &C::y).required());
   keys.push_back(text("one_line_per", &C::one_line_per, "a column; one line for each of its values"));
   keys.push_back(custom<C>(
       "spread", "boolean|string",

@@ -65,11 +65,8 @@ Values cells_of_column(Call& call) {
 
 const Block<Join>& join_block() {
   static const Block<Join> block{
-      {custom<Join>("by", "string|string[]",
-                    "the column, or columns, in which rows that belong together are equal",
-                    [](const Argument& value, const OptionInfo& info, Join& join, Problems& problems) {
-                      read_texts(value, info, join.by, problems);
-                    })
+      {texts_key("by", "string|string[]",
+                 "the column, or columns, in which rows that belong together are equal", &Join::by)
            .required(),
        text("suffix", &Join::suffix,
             "behind the names of the other's columns that both tables have, such as \"_predicted\""),
@@ -195,9 +192,8 @@ struct FromKeys {
 
 const Block<FromKeys>& from_block() {
   static const Block<FromKeys> block{
-      {custom<FromKeys>("columns", "string[]", "the names of columns in the order in which they stand",
-                        [](const Argument& value, const OptionInfo& info, FromKeys& keys,
-                           Problems& problems) { read_texts(value, info, keys.columns, problems); })
+      {texts_key("columns", "string[]", "the names of columns in the order in which they stand",
+                 &FromKeys::columns)
            .defaults_to("in the order of their names, as rows bring them")}};
   return block;
 }
@@ -207,11 +203,8 @@ struct ReadKeys : TableForm {};
 const Block<ReadKeys>& read_table_block() {
   static const Block<ReadKeys> block = [] {
     std::vector<Option<ReadKeys>> keys(table_form_keys().begin(), table_form_keys().end());
-    keys.push_back(custom<TableForm>(
-        "text", "string|string[]", "columns that hold texts, whatever their cells look like",
-        [](const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
-          read_texts(value, info, form.texts, problems);
-        }));
+    keys.push_back(texts_key("text", "string|string[]",
+                             "columns that hold texts, whatever their cells look like", &TableForm::texts));
     keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
                           "origin of dates and times of day, in seconds: the first one of the column, or "
                           "the beginning of 1970"));
@@ -246,7 +239,7 @@ Values table_from(Call& call) {
   Rows table;
   table.rename("the table");
   for (const std::string& column : keys.columns) {
-    const auto [name, unit, mean_of] = split_column_unit(column);
+    const auto [name, unit, mean_of, plain] = split_column_unit(column);
     table.declare_column(name);
     if (!unit.empty()) table.declare_unit(name, unit);
   }

@@ -27,6 +27,11 @@ void read_model(const Argument& value, const OptionInfo& info, FitKeys& keys, Pr
   static const std::vector<std::string> words = {"linear", "power"};
   if (value.is_function()) {
     keys.function = true;
+    const Argument::StackGuard guard(value.state());
+    lua_pushvalue(value.state(), value.index());
+    const char* first = lua_getlocal(value.state(), nullptr, 1);
+    if (first != nullptr && std::string_view(first) == "x")
+      problems.push_back(quoted(info.name) + " is function(x, …); parameters come first: function(q, row)");
   } else if (value.is_text()) {
     if (const auto place = detail::read_word(value, info, words, problems)) keys.model = words[*place];
   } else {

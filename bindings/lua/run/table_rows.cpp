@@ -47,11 +47,7 @@ struct SortKeys {
 const Block<SortKeys>& sort_block() {
   using K = SortKeys;
   static const Block<K> block{
-      {custom<K>("by", "string|string[]", "the column, or columns, the first one first",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   read_texts(value, info, keys.by, problems);
-                 })
-           .required(),
+      {texts_key("by", "string|string[]", "the column, or columns, the first one first", &K::by).required(),
        flag("descending", &K::descending, "largest first")}};
   return block;
 }
@@ -188,17 +184,7 @@ Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Exp
   return custom<Expectation>(
       name, "number", sentence,
       [member](const Argument& value, const OptionInfo& info, Expectation& e, Problems& problems) {
-        if (value.is_number()) {
-          e.*member = value.number();
-        } else if (value.is_text()) {
-          try {
-            e.*member = ExpectedValue(value.text());
-          } catch (const Error& error) {
-            problems.push_back(quoted(info.name) + ": " + error.what());
-          }
-        } else {
-          detail::wrong_type(value, info, "a number or a quantity", problems);
-        }
+        read_expected(value, info.name, e.*member, problems);
       });
 }
 

@@ -29,11 +29,8 @@ struct MeanKeys {
 const Block<MeanKeys>& mean_block() {
   using K = MeanKeys;
   static const Block<K> block{
-      {custom<K>("by", "string|string[]",
-                 "a column, or columns: one mean for the rows that are equal in them",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   read_texts(value, info, keys.by, problems);
-                 }),
+      {texts_key("by", "string|string[]",
+                 "a column, or columns: one mean for the rows that are equal in them", &K::by),
        where_key(&K::where),
        number("confidence", &K::confidence, inside(0, 1), "the share of such intervals that hold the mean"),
        choice("interval", &K::interval,
@@ -49,9 +46,10 @@ Cell cell_of_number(const std::optional<double>& number) {
 
 std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, const std::string& column,
                                       const std::string& unit) {
-  std::vector<TableColumn> columns, found = {{"mean", unit, split_column_unit(column).name}};
-  for (const char* name : {"sd", "u", "low", "high"}) found.push_back({name, unit});
-  for (const char* name : {"n", "left_out", "skewness", "interval"}) found.push_back({name, ""});
+  const TableColumn& averaged = table.columns()[table.column(column, "column")];
+  std::vector<TableColumn> columns, found = {{"mean", unit, averaged.name, averaged.plain}};
+  for (const char* name : {"sd", "u", "low", "high"}) found.push_back({name, unit, {}, averaged.plain});
+  for (const char* name : {"n", "left_out", "skewness", "interval"}) found.push_back({name, {}, {}, true});
   for (const std::string& name : keys.by) {
     columns.push_back(table.columns()[table.column(name, "by")]);
     for (const TableColumn& other : found)
@@ -203,10 +201,18 @@ void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& co
   warn_of(call, draw(chart, run.path_for(*keys.file)));
 }
 
-Values histogram_of_column(Call& call) {
-  if (call.argument(1).is_table())
+}  // namespace
+
+void look_at_histogram(const Call& call) {
+  if (call.argument(1).is_table() && !call.argument(1).is_unknown())
     throw Error(ErrorCode::bad_value, "histogram takes the column first",
                 "write t:histogram(\"mu\", { bins=2 })");
+}
+
+namespace {
+
+Values histogram_of_column(Call& call) {
+  look_at_histogram(call);
   const std::string name = call.text(1, "column");
   const HistogramKeys keys = call.options(column_histogram_block(), 2);
   if (keys.file) picture_format(*keys.file);
@@ -252,7 +258,8 @@ Function histogram_method() {
           .options = optional(column_histogram_block()),
           .returns = "Histogram",
           .example = "print(book:histogram(\"mu\", { bins=2 }))",
-          .heavy = true};
+          .heavy = true,
+          .look = look_at_histogram};
 }
 
 }  // namespace asperity::lua

@@ -186,6 +186,21 @@ void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::
   for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
 }
 
+void read_expected(const Argument& value, const std::string& name, std::optional<ExpectedValue>& expected,
+                   Problems& problems) {
+  if (value.is_nil() || value.is_unknown()) return;
+  try {
+    if (value.is_number())
+      expected = value.number();
+    else if (value.is_text())
+      expected = ExpectedValue(value.text());
+    else
+      problems.push_back(quoted(name) + " is " + value.describe() + "; give a number or a quantity");
+  } catch (const Error& error) {
+    problems.push_back(quoted(name) + ": " + error.what());
+  }
+}
+
 const std::vector<Option<TableForm>>& table_form_keys() {
   using F = TableForm;
   static const std::vector<Option<F>> keys = {

@@ -10,6 +10,7 @@
 
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "engine/run/expectation.hpp"
 #include "engine/statistics/table.hpp"
 #include "engine/statistics/table_filter.hpp"
 #include "engine/statistics/table_form.hpp"
@@ -64,5 +65,16 @@ void read_pairs(const Argument& value, const OptionInfo& info,
                 Problems& problems);
 void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::string>& texts,
                 Problems& problems);
+template <class O, class M>
+Option<O> texts_key(const char* name, const char* type, const char* sentence, M O::*member) {
+  return custom<O>(name, type, sentence,
+                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                     read_texts(value, info, options.*member, problems);
+                   });
+}
+
+// A number or a quantity.
+void read_expected(const Argument& value, const std::string& name, std::optional<ExpectedValue>& expected,
+                   Problems& problems);
 
 }  // namespace asperity::lua

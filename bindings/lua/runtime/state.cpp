@@ -401,7 +401,11 @@ int traceback_handler(lua_State* L) {
   const lua_Hook hook = lua_gethook(L);
   const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
   lua_sethook(L, nullptr, 0, 0);
-  luaL_traceback(L, L, lua_tostring(L, 1), 1);
+  int first = 1;  // below the functions of the sandbox
+  lua_Debug frame;
+  for (int level = 1; lua_getstack(L, level, &frame) != 0 && lua_getinfo(L, "Sl", &frame) != 0; ++level)
+    if (std::strcmp(frame.source, "=sandbox") == 0) first = level + 1;
+  luaL_traceback(L, L, lua_tostring(L, 1), first);
   lua_sethook(L, hook, mask, count);
   return 1;
 }

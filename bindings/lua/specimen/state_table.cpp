@@ -13,6 +13,7 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
+#include "bindings/lua/surface/measure.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
@@ -20,45 +21,22 @@ namespace asperity::lua {
 
 namespace {
 
-// The action pushes one value; throws the Lua error.
-template <class Action>
-void push_with(lua_State* L, Action action) {
-  if (protect(L, 0, 1, action) == LUA_OK) return;
-  stop_flag().check();
-  throw Error(ErrorCode::bad_value, error_text(L, -1));
-}
-
-struct FieldValue {
-  Cell cell;
-  Dimension dimension;
-};
-
 // At `index`: a record or a State.
-FieldValue field_at(lua_State* L, int index, const std::string& field) {
+Cell field_at(lua_State* L, int index, const std::string& field) {
   const Argument::StackGuard guard(L);
   lua_pushvalue(L, index);
-  const int owner = lua_gettop(L);
-  FieldValue found;
-  if (const auto record = record_at(L, owner)) {
-    for (const Record::Entry& entry : record->entries)
-      if (entry.field == field) found.dimension = entry.dimension;
-  } else {
-    for (const Getter& getter : class_of<asperity::State>().fields)
-      if (getter.name == field) found.dimension = getter.dimension;
-  }
   auto read = [&field](lua_State* s) {
     lua_getfield(s, 1, field.c_str());
     return 1;
   };
   if (protect(L, 1, 1, read) != LUA_OK) throw Error(ErrorCode::unknown_name, error_text(L, -1));
   const Argument value(L, -1);
-  if (value.is_nil()) return found;
+  if (value.is_nil()) return {};
   const auto cell = cell_of(value);
   if (!cell)
     throw Error(ErrorCode::bad_value, "the field " + quoted(field) + " is " + value.describe(),
                 "a column holds numbers, strings or booleans");
-  found.cell = *cell;
-  return found;
+  return *cell;
 }
 
 // value:roughness(), or value:profile_parameters{ section= }.
@@ -74,7 +52,31 @@ void push_roughness(lua_State* L, const Value& value, std::optional<double> sect
     }
     lua_call(s, section ? 2 : 1, 1);
     return 1;
-  });
+  };
+  if (protect(L, 0, 1, action) == LUA_OK) return;
+  stop_flag().check();
+  throw Error(ErrorCode::bad_value, error_text(L, -1));
+}
+
+Dimension declared_dimension(const std::string& owner, const std::string& field, bool in_sections) {
+  static const Class& state = class_of<asperity::State>();
+  const RecordInfo& roughness = owner != "trace" ? areal_roughness_type
+                                : in_sections    ? *find_record_type("ProfileParameters")
+                                                 : profile_roughness_type;
+  std::vector<std::string> names;
+  if (owner.empty()) names = {"event", "kind", "press"};
+  if (std::ranges::find(names, field) != names.end()) return dimension::number;
+  for (const Getter& getter : owner.empty() ? state.fields : roughness.fields) {
+    if (getter.name == field) return getter.dimension;
+    names.push_back(getter.name);
+  }
+  throw Error(ErrorCode::unknown_name,
+              (owner.empty() ? state.article_name : "a " + roughness.title + " result") + " has no field " +
+                  quoted(field) + meant_by(field, names),
+              owner.empty()
+                  ? ""
+                  : "it has " + joined(names, " and ") +
+                        (owner == "trace" && !in_sections ? "; trace={ section= } gives more" : ""));
 }
 
 }  // namespace
@@ -82,7 +84,7 @@ void push_roughness(lua_State* L, const Value& value, std::optional<double> sect
 StateTable::StateTable(const std::vector<std::string>& names, TraceKeys traces) : traces_(std::move(traces)) {
   for (const std::string& name : names) {
     const TableColumn split = split_column_unit(name);
-    Column column{"", split.name, split.name, split.unit};
+    Column column{"", split.name, split.name};
     if (const std::size_t dot = split.name.find('.'); dot != std::string::npos) {
       column.owner = split.name.substr(0, dot);
       column.field = split.name.substr(dot + 1);
@@ -93,10 +95,9 @@ StateTable::StateTable(const std::vector<std::string>& names, TraceKeys traces) 
                   "the column " + quoted(name) + " is of " + quoted(column.owner) +
                       did_you_mean(column.owner, owners),
                   "give a quantity of the state, or one of lower, upper or trace, such as \"lower.Ra [um]\"");
-    if (column.owner == "trace" && traces_.stylus == nullptr)
-      throw Error(ErrorCode::bad_value, "the column " + quoted(name) + " needs a stylus",
-                  "give trace={ stylus=stylus, count=5, seed=1 }");
-    table_.declare_column(column.name);
+    table_.declare_dimension(column.name,
+                             declared_dimension(column.owner, column.field, traces_.section.has_value()));
+    if (!split.unit.empty()) table_.declare_unit(column.name, split.unit);
     columns_.push_back(std::move(column));
   }
   table_.rename("the table");
@@ -110,10 +111,7 @@ void StateTable::add(Call& call, const Turn& turn) {
   lua_State* L = call.L;
   const Argument::StackGuard guard(L);
   const auto pushed = [&](const Value& value) {
-    push_with(L, [&value](lua_State* s) {
-      push(s, value);
-      return 1;
-    });
+    push_checked(L, value, "a row");
     return lua_gettop(L);
   };
   const int state = pushed(turn.state), event = pushed(turn.event);
@@ -125,6 +123,9 @@ void StateTable::add(Call& call, const Turn& turn) {
   if (needs("lower")) roughness_of("lower", turn.pair->lower());
   if (needs("upper")) roughness_of("upper", turn.pair->upper());
   if (needs("trace")) {
+    if (traces_.stylus == nullptr)
+      throw Error(ErrorCode::bad_value, "a column of `trace` needs a stylus",
+                  "give trace={ stylus=stylus, count=5, seed=1 }");
     const StylusScan scan =
         traces_.stylus->scan(turn.pair->lower(), traces_.count, traces_.seed, call.session().monitor());
     for (const Profile& trace : scan.traces) {
@@ -134,7 +135,7 @@ void StateTable::add(Call& call, const Turn& turn) {
   }
   std::vector<Entry> row;
   for (const Column& column : columns_) {
-    FieldValue found;
+    Cell found;
     if (!column.owner.empty()) {
       double sum = 0;
       int numbers = 0, records = 0;
@@ -142,20 +143,19 @@ void StateTable::add(Call& call, const Turn& turn) {
         if (owner != column.owner) continue;
         found = field_at(L, place, column.field);
         ++records;
-        if (is_number(found.cell)) sum += *number_in(found.cell), ++numbers;
+        if (is_number(found)) sum += *number_in(found), ++numbers;
       }
-      if (records > 1) found.cell = numbers == records ? Cell(sum / numbers) : Cell();
+      if (records > 1) found = numbers == records ? Cell(sum / numbers) : Cell();
     } else if (!turn.event.is_nil() && column.name == "event") {
       found = field_at(L, event, "index");
     } else if (!turn.event.is_nil() && column.name == "kind") {
       found = field_at(L, event, "kind");
     } else if (column.name == "press") {
-      if (!turn.state.is_nil()) found.cell = turn.press;
+      if (!turn.state.is_nil()) found = turn.press;
     } else if (!turn.state.is_nil()) {
       found = field_at(L, state, column.field);
     }
-    row.push_back({column.name, found.cell,
-                   column.unit.empty() && is_number(found.cell) ? si_unit(found.dimension) : column.unit});
+    row.push_back({column.name, found});
   }
   table_.append(row);
 }
@@ -223,9 +223,15 @@ const Block<ApplyKeys>& apply_block() {
            .required(),
        custom<K>("trace", "table",
                  "traces on the lower body after each event: { stylus=, count=1, seed=1, section= }; a "
-                 "section gives "
-                 "the parameters of ISO 21920-2, such as trace.Rz",
-                 read_trace)}};
+                 "section gives the parameters of ISO 21920-2, such as trace.Rz",
+                 read_trace)},
+      [](const K& keys, Problems& problems) {
+        for (const std::string& name : keys.columns) try {
+            StateTable({name}, keys.trace);
+          } catch (const Error& error) {
+            problems.emplace_back(error.what());
+          }
+      }};
   return block;
 }
 

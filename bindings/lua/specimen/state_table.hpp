@@ -26,6 +26,7 @@ struct TraceKeys {
 // unit in brackets is its display unit.
 class StateTable {
  public:
+  // Throws Error{unknown_name} for a missing field, and Error{bad_unit} for a unit of another dimension.
   StateTable(const std::vector<std::string>& names, TraceKeys traces);
 
   struct Turn {
@@ -34,14 +35,12 @@ class StateTable {
     std::int64_t press = 0;  // presses so far
     std::shared_ptr<SpecimenPair> pair;
   };
-  // Throws Error{unknown_name} for a missing field.
   void add(Call& call, const Turn& turn);
   Table finish() && { return std::move(table_); }
 
  private:
   struct Column {
     std::string owner, field, name;  // "lower", "Ra", "lower.Ra"
-    std::string unit;
   };
   bool needs(const std::string& owner) const;
 

@@ -105,6 +105,8 @@ Values grow_slip(Call& call) {
       slip_growth(*stage.contact, *stage.law, options, keys.steps, call.session().monitor()))};
 }
 
+constexpr Dimension area_per_force = dimension::number / dimension::pressure;
+
 const RecordType<SlipAngle> tilt_trial_type{
     "TiltTrial",
     "trial",
@@ -120,7 +122,8 @@ const RecordType<TiltProbe> tilt_probe_type{
     "A pressure at which a trial solved a half-space contact.",
     {{"pressure", &TiltProbe::pressure, dimension::pressure, "at which it was solved, level"},
      {"nodes_in_contact", &TiltProbe::contacts, "nodes in contact"},
-     {"area_per_load", &TiltProbe::area_per_load, "corrected real contact area over the load, 1/Pa"},
+     {"area_per_load", &TiltProbe::area_per_load, area_per_force,
+      "corrected real contact area over the load"},
      {"mu", &TiltProbe::mu, "friction over load, its adhesive part on the corrected area"}}};
 
 const RecordType<TiltResult> tilt_type =
@@ -136,8 +139,8 @@ const RecordType<TiltResult> tilt_type =
          {"slipped", &TiltResult::slipped,
           "whether every trial slid; otherwise angle, held and mu are lower bounds"},
          {"trials", &TiltResult::trials, tilt_trial_type, "each event, in order"},
-         {"area_per_load", &TiltResult::area_per_load,
-          "corrected real contact area over the load, 1/Pa: mean over the trials; nil but on a half-space"},
+         {"area_per_load", &TiltResult::area_per_load, area_per_force,
+          "corrected real contact area over the load: mean over the trials; nil but on a half-space"},
          {"probe_spread", &TiltResult::probe_spread,
           "greatest relative distance of mu at one probe from the mean of its trial: the possible error of "
           "the extrapolation to the weight; nil if the weight was solved, with one probe, and for boxes"},
