@@ -6,7 +6,7 @@
 --! error: check_old_names.lua:16: protocol:apply: a state has no field `contacts`, which is called `nodes_in_contact` now
 --! error: check_old_names.lua:17: a state has no field `contacts`, which is called `nodes_in_contact` now
 local lab = require "asperity"
-local c = lab.contact{ lower=lab.surface.flat{ cells=4096, size=1 }, upper=lab.rigid, boundary="periodic",
+local c = lab.contact{ lower=lab.surface.flat{ cells=4096, size=1, material=lab.material "steel" }, upper=lab.rigid, boundary="periodic",
   effects={ elasticity="half_space" } }
 local p = lab.protocol{ { press={ pressure="1 MPa" } } }
 local b = lab.notebook "b"

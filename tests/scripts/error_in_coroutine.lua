@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --! flags: --trace
 --! exit: 1
---! error: asperity: error_in_coroutine.lua:9: attempt to index a nil value (local 'missing')
---! error: error_in_coroutine.lua:10: in main chunk
+--! error: error_in_coroutine.lua:10: attempt to index a nil value (local 'missing')
+--! error: error_in_coroutine.lua:11: in main chunk
+--! not error: error_in_coroutine.lua:11: /
 --! not error: sandbox
 local steps = coroutine.wrap(function()
   local missing
