@@ -18,7 +18,6 @@ end
 assert(#rows == 2 and rows.units.pressure == "MPa" and rows:max "pressure" == 40e6)
 refused(function() pair():sweep{ pressure=loads }:table{ "presure" } end, "has no field `presure`", "did you mean `pressure`?")
 
--- A column has a unit of its quantity.
 refused(function() pair():sweep{ pressure=loads }:table{ "pressure [um]" } end,
   "column `pressure` is a pressure, and `um` is a unit of a length; write `pressure [Pa]`")
 refused(function() rows:show{ "area_fraction [um]" } end, "plain number", "write `area_fraction [%]`")
