@@ -41,7 +41,7 @@ Cell field_at(lua_State* L, int index, const std::string& field) {
 
 // value:roughness(), or value:profile_parameters{ section= }.
 void push_roughness(lua_State* L, const Value& value, std::optional<double> section = {}) {
-  push_with(L, [&](lua_State* s) {
+  auto action = [&](lua_State* s) {
     push(s, value);
     lua_getfield(s, -1, section ? "profile_parameters" : "roughness");
     lua_pushvalue(s, -2);
@@ -225,7 +225,7 @@ const Block<ApplyKeys>& apply_block() {
                  "traces on the lower body after each event: { stylus=, count=1, seed=1, section= }; a "
                  "section gives the parameters of ISO 21920-2, such as trace.Rz",
                  read_trace)},
-      [](const K& keys, Problems& problems) {
+      [](K& keys, Problems& problems) {
         for (const std::string& name : keys.columns) try {
             StateTable({name}, keys.trace);
           } catch (const Error& error) {
