@@ -107,7 +107,8 @@ void check_unit(const TableColumn& column, std::string_view unit) {
   throw Error(ErrorCode::bad_unit,
               "column " + quoted(column.name) + " is " + describe(own) + ", and " + quoted(unit) +
                   " is a unit of " + describe(given),
-              "write " + quoted(column.name + " [" + (column.unit.empty() ? "%" : column.unit) + "]"));
+              "write " + (column.unit.empty() ? quoted(column.name) + " or " + quoted(column.name + " [%]")
+                                              : quoted(column.name + " [" + column.unit + "]")));
 }
 
 }  // namespace

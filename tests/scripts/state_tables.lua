@@ -20,8 +20,8 @@ refused(function() pair():sweep{ pressure=loads }:table{ "presure" } end, "has n
 
 refused(function() pair():sweep{ pressure=loads }:table{ "pressure [um]" } end,
   "column `pressure` is a pressure, and `um` is a unit of a length; write `pressure [Pa]`")
-refused(function() rows:show{ "area_fraction [um]" } end, "plain number", "write `area_fraction [%]`")
-refused(function() rows:chart{ x="pressure", y="area_fraction [um]" } end, "write `area_fraction [%]`")
+refused(function() rows:show{ "area_fraction [um]" } end, "plain number", "write `area_fraction` or `area_fraction [%]`")
+refused(function() rows:chart{ x="pressure", y="area_fraction [um]" } end, "write `area_fraction` or `area_fraction [%]`")
 
 -- Events, bodies and traces.
 local stylus = lab.stylus{ tip="2 um", spacing="5 um", length="0.5 mm" }
@@ -52,11 +52,11 @@ refused(function() return pair().area_fraction end, "a state, from contact:press
 refused(function() protocol:apply(pair(), { columns={ "lover.Ra" } }) end, "did you mean `lower`?")
 refused(function() protocol:apply(pair(), { columns={ "trace.Ra" } }) end, "needs a stylus")
 refused(function() protocol:apply(pair(), { columns={ "pressure [um]", "lower.Ra [MPa]", "press [um]" } }) end,
-  "write `pressure [Pa]`", "write `lower.Ra [m]`", "write `press [%]`")
+  "write `pressure [Pa]`", "write `lower.Ra [m]`", "write `press` or `press [%]`")
 local friction = lab.friction{ tau0="500 MPa", alpha=0.2 }
 local tilt = lab.tilt_stage{ mass="50 g", specimen_area="1 cm^2", friction=friction, contact=pair() }:raise()
 refused(function() tilt.trials:show{ "held [um]" } end, "write `held [rad]`")
-refused(function() tilt.probes:show{ "mu [um]" } end, "write `mu [%]`")
+refused(function() tilt.probes:show{ "mu [um]" } end, "write `mu` or `mu [%]`")
 assert(#tilt.probes:column "area_per_load [1/MPa]" > 0)
 
 -- Rows of an ensemble keep values that no cell holds.
