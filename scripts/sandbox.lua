@@ -82,13 +82,13 @@ end
 
 -- Lua's own wrap puts a second line before the message.
 local create, resume, close = coroutine.create, coroutine.resume, coroutine.close
+local function results(thread, done, ...)
+  if not done then close(thread) error((...), 0) end
+  return ...
+end
 function coroutine.wrap(body)
   local thread = create(body)
-  local function results(done, ...)
-    if not done then close(thread) error((...), 0) end
-    return ...
-  end
-  return function(...) return results(resume(thread, ...)) end
+  return function(...) return results(thread, resume(thread, ...)) end
 end
 
 local lab = require "asperity"

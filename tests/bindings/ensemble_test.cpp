@@ -338,7 +338,7 @@ TEST(Ensemble, UntransferableUpvaluesAreNamedWithTheWayToThem) {
                "script:2: lab.ensemble: `run` uses the upvalue `c`, which is a coroutine; make it inside "
                "`run`"));
   EXPECT_TRUE(contains(error_of("local w = coroutine.wrap(print) local function run() return w end"),
-                       "`run` uses the upvalue `w`, which holds a coroutine"));
+                       "`run` uses the upvalue `w`, which uses the upvalue `thread`, which is a coroutine"));
   EXPECT_TRUE(
       contains(error_of("local f = io.tmpfile and io.open('/dev/null') local function run() return f end"),
                "`run` uses the upvalue `f`, which is an open file"));

@@ -407,7 +407,7 @@ TEST(EventDetection, WhatHoldsNoEventIsRefused) {
             "events=\"rows\" if each of its rows is an event");
   EXPECT_TRUE(refusal(times(50, {0})).find("holds no load above its noise") != std::string::npos);
   EXPECT_EQ(refusal(times(20, {0}) + times(20, {1e-300})),
-            "bad_file: \"press.csv\" holds extreme times or loads: 39 s in all, up to 1e-288 pN; check "
+            "bad_file: \"press.csv\" holds extreme times or loads: 39 s in all, up to 1e-300 N; check "
             "the units of its columns");
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;

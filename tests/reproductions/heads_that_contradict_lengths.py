@@ -29,4 +29,4 @@ refused('lab.surface.read "f.sur"', "f.sur", "256 too many")
 write("cut.txt", "1 2\n3 4\n5 6.2")
 assert "no line end" in run('lab.surface.read("cut.txt", { size=1e-3, unit="um" })').stderr
 write("tiny.txt", "h=2 w=2\npixel size=1e-43 m\n1 2\n3 4\n")
-assert "1e-31 pm apart" in run('lab.surface.read("tiny.txt", { size=2e-43, unit=1e-60 })').stderr
+assert "1e-43 m apart" in run('lab.surface.read("tiny.txt", { size=2e-43, unit=1e-60 })').stderr

@@ -20,8 +20,8 @@ refused(function() pair():sweep{ pressure=loads }:table{ "presure" } end, "has n
 
 refused(function() pair():sweep{ pressure=loads }:table{ "pressure [um]" } end,
   "column `pressure` is a pressure, and `um` is a unit of a length; write `pressure [Pa]`")
-refused(function() rows:show{ "area_fraction [um]" } end, "plain number", "write `area_fraction` or `area_fraction [%]`")
-refused(function() rows:chart{ x="pressure", y="area_fraction [um]" } end, "write `area_fraction` or `area_fraction [%]`")
+refused(function() rows:show{ "area_fraction [um]" } end, "plain number", "write `area_fraction [%]`")
+refused(function() rows:chart{ x="pressure", y="area_fraction [um]" } end, "write `area_fraction [%]`")
 
 -- Events, bodies and traces.
 local stylus = lab.stylus{ tip="2 um", spacing="5 um", length="0.5 mm" }

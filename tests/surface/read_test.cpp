@@ -257,7 +257,7 @@ TEST(Read, LengthsOutOfAllProportionAreWarnedOf) {
     const std::vector<std::string> all = warnings(text, options);
     return all.size() == 1 && all[0].find(part) != std::string::npos;
   };
-  EXPECT_TRUE(said("h=2 w=2\npixel size=1e-43 m\n" + four, square(2e-43, 1e-60), "points 1e-31 pm apart"));
+  EXPECT_TRUE(said("h=2 w=2\npixel size=1e-43 m\n" + four, square(2e-43, 1e-60), "points 1e-43 m apart"));
   EXPECT_TRUE(said(four, square(1e4, 1), "is 10 km long"));
   EXPECT_TRUE(said(four, square(1e-6, 1), "heights that span 3 m over 1 um: check its size and its unit"));
   ReadOptions narrow = square(1, 1e-9);

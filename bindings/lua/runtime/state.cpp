@@ -403,8 +403,12 @@ int traceback_handler(lua_State* L) {
   lua_sethook(L, nullptr, 0, 0);
   int first = 1;  // below the functions of the sandbox
   lua_Debug frame;
-  for (int level = 1; lua_getstack(L, level, &frame) != 0 && lua_getinfo(L, "Sl", &frame) != 0; ++level)
-    if (std::strcmp(frame.source, "=sandbox") == 0) first = level + 1;
+  for (int level = 1; lua_getstack(L, level, &frame) != 0 && lua_getinfo(L, "S", &frame) != 0; ++level) {
+    if (std::strcmp(frame.source, "=sandbox") == 0)
+      first = level + 1;
+    else if (*frame.what != 'C')
+      break;
+  }
   luaL_traceback(L, L, lua_tostring(L, 1), first);
   lua_sethook(L, hook, mask, count);
   return 1;

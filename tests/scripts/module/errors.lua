@@ -20,7 +20,7 @@ expect(function() s:height(64, 0) end, "there is no node (64, 0)")
 expect(function() s.cells = 3 end, "a surface cannot be changed")
 expect(function() return s:roughness().Raa end, "a roughness result has no field `Raa`")
 expect(function() lab.surface.from_function{ cells=4, size=1, height=function() error "no height" end } end, "no height")
-expect(function() lab.surface.from_function{ cells=4, size=1, height=function() error{} end } end, "a table")
+expect(function() lab.surface.from_function{ cells=4, size=1, height=function() error{} end } end, "an empty table")
 expect(function() lab.surface.from_function{ cells=4, size=1, height=function() coroutine.yield() end } end, "yield")
 expect(coroutine.wrap(function() lab.material "stel" end), "did you mean `steel`?")
 
