@@ -50,7 +50,7 @@ struct ChosenAccuracy {
 // "64 x 64 cells"; "1.2 %".
 std::string cells_text(int nx, int ny);
 std::string percent_text(double share);
-// Of a companion grid, not tighter than `tolerance`: a missed tolerance is no error.
+// The accuracy of a companion grid: `tolerance` or looser. A missed tolerance is no error.
 Accuracy companion_accuracy(const Accuracy& given, double tolerance);
 
 }  // namespace asperity

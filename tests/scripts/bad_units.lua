@@ -22,8 +22,8 @@ refused(function() c:press{ approach="1 MPa" } end, "`approach`: ", "a length is
 refused(function() c:press{ pressure="1e300 GPa" } end, "`pressure`: ", "outside the range of numbers")
 refused(function() c:press{ pressure=0/0 } end, "`pressure` is nan Pa")
 refused(function() c:press{ pressure=math.huge } end, "`pressure` is inf Pa; give a finite number")
-for key, text in pairs{ load="inf N; give a finite", approach="inf m; give a finite", flatten="inf; give a number from 0 to 1" } do
-  refused(function() c:press{ [key]=math.huge } end, "`" .. key .. "` is " .. text)
+for key, text in pairs{ load="-inf N; give a finite", approach="inf m; give a finite", flatten="inf; give a number from 0 to 1" } do
+  refused(function() c:press{ [key]=key == "load" and -math.huge or math.huge } end, "`" .. key .. "` is " .. text)
 end
 refused(function() lab.friction{ tau0="500 MPa", alpha="0.2 MPa" } end, "`alpha`: ")
 print "all refused"

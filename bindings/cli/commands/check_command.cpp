@@ -52,8 +52,10 @@ int report_mistakes(const RunCommand& command, const std::vector<std::string>& m
 
 int report_stop(const RunCommand& command, const std::string& verb) {
   const StopReason reason = stop_flag().reason();
-  if (command.observer != nullptr)
-    return command.observer->ended(failed, reason, "the " + verb + " was stopped"), failed;
+  if (command.observer != nullptr) {
+    command.observer->ended(failed, reason, "the " + verb + " was stopped");
+    return failed;
+  }
   std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
   return exit_status(reason);
 }

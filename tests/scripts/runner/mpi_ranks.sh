@@ -34,7 +34,7 @@ ends_soon() {
   how=$1
   shift
   # mpirun waits so many seconds before SIGTERM and again before SIGKILL, whatever has ended meanwhile. One, its default,
-  # is short for a rank that records where it was interrupted while the machine builds something: with a load of 4, 13.
+  # is short for a rank that records where it was interrupted while the machine builds something. A load of 4 gives 13 s.
   patience=1
   [ "$how" != interrupt ] || patience=$((5 + 2 * $(cut -d. -f1 /proc/loadavg)))
   OMPI_MCA_odls_base_sigkill_timeout=$patience mpirun --oversubscribe --bind-to none -n 2 \
