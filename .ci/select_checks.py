@@ -7,7 +7,8 @@ usage: select_checks.py [--since COMMIT] [--why]    the paths of the difference 
        select_checks.py --everything
 
 Prints a line for each part of .ci/run: `release`, `sanitize` and `thread` with a regular expression of CTest's names, and
-`sanitize_targets`, `thread_targets`, `fuzz`, `packages`, `newcomer`, `wasm`, `selection` with words. An empty word means: not at all.
+`sanitize_targets`, `thread_targets`, `fuzz`, `packages`, `newcomer`, `wasm`, `selection` with words. An empty word means: not at all. `wasm` is `node` for the program under
+node, `page` for the page in Chromium too.
 Where the difference is not known, everything is called for.
 """
 import argparse
@@ -114,8 +115,9 @@ USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runne
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|packed_value|^engine/core/|^bindings/(cli/|main)")
 # Files of the build: a change there may change anything. A CMakeLists.txt below a folder of tests/ changes the tests of that folder.
 BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/|tests/.+/|bindings/wasm/)((.*/)?CMakeLists\.txt|.*\.cmake)$|(CMakePresets\.json|lab|\.clang-format)$")
-# The page without a server and its module, which are built for WebAssembly only.
+# What is built for WebAssembly only; the page without a server is tested in a browser too.
 WASM = ("bindings/wasm", "tests/wasm")
+WASM_PAGE = WASM + ("bindings/web/page/src/alone",)
 # The record of passes, which changes nothing.
 CHECKED = recorded.CHECKED
 
@@ -236,13 +238,14 @@ class Selection:
         self.everything = False
         self.release, self.names = {"checks"}, set()
         self.sanitize, self.fuzz = set(), set()
-        self.packages = self.newcomer = self.wasm = False
+        self.packages = self.newcomer = False
+        self.wasm = ""
 
     def add(self, path):
         if path == CHECKED:
             return
-        if under(path, WASM + ("bindings/web/page/src/alone",)):
-            self.wasm = True
+        if under(path, WASM_PAGE):
+            self.wasm = "page"
         if under(path, WASM):
             return
         if may_change_anything(path):
@@ -258,6 +261,8 @@ class Selection:
         for name, places in FUZZED.items():
             if under(path, places):
                 self.fuzz.add(name)
+        if under(path, PROGRAM):
+            self.wasm = self.wasm or "node"
         if RANKS.search(path):
             self.release.add("ranks")
         if path.startswith("tests/"):
@@ -336,7 +341,7 @@ class Selection:
         sanitize = "|".join(filter(None, (shards(self.sanitize), corpora)))
         return {"release": release, "sanitize": sanitize, "sanitize_targets": targets(self.sanitize),
                 **threads(self.sanitize), "fuzz": " ".join(sorted(self.fuzz)), "packages": "yes" if self.packages else "",
-                "newcomer": "yes" if self.newcomer else "", "wasm": "yes" if self.wasm else "", "selection": " ".join(sorted(self.release))}
+                "newcomer": "yes" if self.newcomer else "", "wasm": self.wasm, "selection": " ".join(sorted(self.release))}
 
 
 def select(paths):

@@ -50,9 +50,8 @@ archive() {
   shift 2
   rm -rf "objects-$name"
   mkdir "objects-$name"
-  for file in "$@"; do
-    $compiler -I. -I"$deps/include" -c "$file" -o "objects-$name/$(basename "$file").o"
-  done
+  printf '%s\n' "$@" | xargs -P "$(nproc)" -I{} sh -c '"$@" -o "objects-$0/$(basename {}).o"' "$name" \
+    $compiler -I. -I"$deps/include" -c {}
   emar rcs "$deps/lib/lib$name.a" "objects-$name"/*.o
 }
 missing() { [ ! -f "$deps/lib/lib$1.a" ]; }
@@ -87,7 +86,8 @@ if missing md; then
   : >src/config.h
   archive md "emcc $small -Iinclude -Isrc" src/md5.c src/sha2.c
 fi
-if missing zip; then
+# Configuring takes minutes on one processor: libzip beside MPFR.
+zip() {
   cd "$deps/source/libzip"
   # emscripten 3.1.6 reads the sizes of types as 9.
   emcmake cmake -S . -B build -DCMAKE_C_FLAGS="$small" -DBUILD_SHARED_LIBS=OFF \
@@ -95,20 +95,18 @@ if missing zip; then
     -DENABLE_OPENSSL=OFF -DENABLE_GNUTLS=OFF -DENABLE_MBEDTLS=OFF -DHAVE_SIZEOF_OFF_T=1 -DSIZEOF_OFF_T=8 \
     -DHAVE_SIZEOF_SIZE_T=1 -DSIZEOF_SIZE_T=4 -DZLIB_LIBRARY="$deps/lib/libz.a" -DZLIB_INCLUDE_DIR="$deps/include" \
     -DCMAKE_INSTALL_PREFIX="$deps" >configure.out 2>&1 || fail "cmake failed: $PWD/configure.out"
-  cmake --build build --target install >make.out 2>&1 || fail "make failed: $PWD/make.out"
-fi
-# With mini-gmp, an eighth of GMP, and with GMP's header, which Boost reads.
+  cmake --build build --parallel --target install >make.out 2>&1 || fail "make failed: $PWD/make.out"
+}
+beside=
+! missing zip || { zip & beside=$!; }
+# With mini-gmp, an eighth of GMP, and with GMP's header for limbs of 32 bits, which Boost reads.
 if missing mpfr; then
-  configured() {
-    CFLAGS=$small emconfigure ./configure --quiet --host=none --build=none --disable-shared --prefix="$deps" "$@" >configure.out 2>&1 ||
-      fail "configure failed: $PWD/configure.out"
-  }
-  cd "$deps/source/gmp"
-  mkdir -p doc
-  : >doc/Makefile.in
-  configured --disable-assembly
-  cp gmp.h "$deps/include"
+  sed 's/@GMP_LIMB_BITS@/32/; s/@GMP_NAIL_BITS@/0/; s/@DEFN_LONG_LONG_LIMB@//; s/@HAVE_HOST_CPU_FAMILY_power[a-z]*@/0/
+       s/@LIBGMP_DLL@/0/; s/@CC@/emcc/; s/@CFLAGS@//' "$deps/source/gmp/gmp-h.in" >"$deps/include/gmp.h"
   cd "$deps/source/mpfr4"
-  configured --disable-thread-safe --with-mini-gmp="$deps/source/gmp/mini-gmp"
-  emmake make -C src install >make.out 2>&1 || fail "make failed: $PWD/make.out"
+  CFLAGS=$small emconfigure ./configure --quiet --host=none --build=none --disable-shared --prefix="$deps" \
+    --disable-thread-safe --with-mini-gmp="$deps/source/gmp/mini-gmp" >configure.out 2>&1 ||
+    fail "configure failed: $PWD/configure.out"
+  emmake make -j "$(nproc)" -C src install >make.out 2>&1 || fail "make failed: $PWD/make.out"
 fi
+[ -z "$beside" ] || wait "$beside"

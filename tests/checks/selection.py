@@ -70,7 +70,13 @@ for folder, groups in {"page": {"page"}, "web": {"web", "serve"}, "scripts": {"s
            f"tests/{folder}/CMakeLists.txt calls for {' '.join(sorted(selection.release))}")
 for path in ("tests/checks/budget.txt", "tests/checks/english.py", "bindings/wasm/CMakeLists.txt", "tests/wasm/run.sh"):
     selection = chooser.select([path])
-    expect((selection.everything, selection.release, selection.wasm) == (False, {"checks"}, "wasm" in path), f"{path} calls for other checks")
+    expect((selection.everything, selection.release, selection.wasm) == (False, {"checks"}, "page" if "wasm" in path else ""),
+           f"{path} calls for other checks")
+for path, words in {"engine/core/digest.cpp": "node", "bindings/cli/commands/run_command.cpp": "node", "bindings/main.cpp": "node",
+                    "scripts/lessons/01_roughness.lua": "node", "bindings/web/page/src/alone/worker.ts": "page",
+                    "bindings/web/page/src/main.ts": "", "docs/browser.md": ""}.items():
+    expect(chooser.select([path]).wasm == words, f"{path} calls for `{chooser.select([path]).wasm}` of WebAssembly")
+expect(chooser.select(["bindings/wasm/page.cpp", "bindings/main.cpp"]).wasm == "page", "node hides the page")
 expect(chooser.select(None).everything, "what is not known calls for everything")
 for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
                    "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/softer_body_yields.lua": "reproductions: softer body yields",

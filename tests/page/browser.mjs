@@ -32,6 +32,7 @@ export async function openBrowser(more = []) {
     args: [
       '--no-sandbox',
       '--disable-dev-shm-usage',
+      '--disable-gpu-compositing',
       '--use-gl=angle',
       '--use-angle=swiftshader',
       '--enable-unsafe-swiftshader',

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The program of the wasm preset: under node, from a folder without the repository, it checks, runs, explains, and
-# replays native runs of all lessons without a difference; then the page in Chromium. Prints times and memory.
+# replays native runs of all lessons without a difference; with `page` then the page in Chromium. Prints times and memory.
 #
-#   tests/wasm/run.sh NATIVE_PROGRAM WASM_FOLDER [LESSON..]
+#   tests/wasm/run.sh node|page NATIVE_PROGRAM WASM_FOLDER [LESSON..]
 set -euo pipefail
-native=$(readlink -f "$1") module=$(readlink -f "$2") here=$(dirname -- "$(readlink -f "$0")")
-shift 2
+scope=$1 native=$(readlink -f "$2") module=$(readlink -f "$3") here=$(dirname -- "$(readlink -f "$0")")
+shift 3
 lessons=${*:-1 2 3 4 5 6 7 8 9 10}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -54,6 +54,7 @@ cmp native-run/journal.jsonl wasm-run/journal.jsonl || fail "the journals differ
 cmp native-run/area.csv wasm-run/area.csv || fail "the notebooks differ"
 "$native" replay wasm-run || fail "the native program does not replay a run of the wasm preset"
 wasm replay native-run
+grep -q "every file but charts and pictures" out || { cat out; fail "a replay does not say which files it leaves out"; }
 echo "press.lua: $(cat cost)"
 cat >large.lua <<'LUA'
 local lab = require "asperity"
@@ -77,6 +78,7 @@ for absent in "serve" "run press.lua --confined" "run press.lua --limit-time 5s"
   ! measured node --no-experimental-fetch asperity.js $absent || fail "$absent is not refused"
   grep -q WebAssembly out || { cat out; fail "$absent: the reason is missing"; }
 done
+[ "$scope" = page ] || exit 0
 
 [ -d "$module/site" ] || fail "$module/site is missing: build the target asperity_site"
 bytes=0

@@ -96,7 +96,9 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
                 recorded.ended() ? recorded.journal.size() : again.journal.size(),
                 !recorded.ended() ? ", as far as it had come"
                 : altered         ? " and every file as the run wrote it"
-                                  : " and every file");
+                : recorded.left_pictures() || again.left_pictures()
+                    ? " and every file but charts and pictures"
+                    : " and every file");
   } else {
     std::printf("%s: the same results; only the version that recorded the run replays it to the byte\n",
                 root);
