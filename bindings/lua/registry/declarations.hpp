@@ -62,6 +62,8 @@ struct Function {
   Listing (*listing)() = nullptr;
   // In a dry run, for arguments with placeholders, after the options; may be null.
   void (*look)(const Call& call) = nullptr;
+  // In a dry run, on :table{…} of the returned iterator; null without :table.
+  void (*look_at_table)(const Call& call) = nullptr;
 };
 
 // "a, b" as "a" and "b".

@@ -6,6 +6,7 @@
 
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/declarations.hpp"
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/monitor.hpp"
 
@@ -66,12 +67,30 @@ int refuse_unknown(lua_State* L) {
                                                         : call_original(L);
 }
 
+Record record_placeholder(const RecordInfo& type);
+
+// Of the placeholder at `index`: a record of an unknown list, otherwise unknown.
+void push_item(lua_State* L, int index) {
+  const bool list =
+      block_at(L, index, &unknown_key) != nullptr && lua_getiuservalue(L, index, 1) == LUA_TLIGHTUSERDATA;
+  if (!list) return push_unknown(L);
+  const auto* item = static_cast<const RecordInfo*>(lua_touserdata(L, -1));
+  if (guarded(L, item->name, [&]() -> Values { return {record_placeholder(*item)}; }) < 0) lua_error(L);
+}
+
+int index_unknown(lua_State* L) {
+  if (lua_type(L, 2) == LUA_TSTRING) return again(L);
+  push_item(L, 1);
+  return 1;
+}
+
+// Upvalues: the placeholder, and whether the loop has run.
 int unknown_once(lua_State* L) {
-  if (lua_toboolean(L, lua_upvalueindex(1)) != 0) return lua_pushnil(L), 1;
+  if (lua_toboolean(L, lua_upvalueindex(2)) != 0) return lua_pushnil(L), 1;
   lua_pushboolean(L, 1);
-  lua_replace(L, lua_upvalueindex(1));
+  lua_replace(L, lua_upvalueindex(2));
   lua_pushinteger(L, 1);
-  push_unknown(L);
+  push_item(L, lua_upvalueindex(1));
   return 2;
 }
 
@@ -85,8 +104,9 @@ int assert_known(lua_State* L) {
 
 int pairs_or_once(lua_State* L) {
   if (lua_gettop(L) >= 1 && Argument(L, 1).is_unknown()) {
+    lua_settop(L, 1);
     lua_pushboolean(L, 0);
-    lua_pushcclosure(L, unknown_once, 1);
+    lua_pushcclosure(L, unknown_once, 2);
     return 1;
   }
   return call_original(L);
@@ -116,7 +136,8 @@ std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::str
 
 // A nested list has an unknown length.
 Value placeholder_inside(const std::string& type) {
-  return type.ends_with("[]") ? Value(Unknown{}) : placeholder_of(type);
+  return type.ends_with("[]") ? Value(Unknown{find_record_type(type.substr(0, type.size() - 2))})
+                              : placeholder_of(type);
 }
 
 Record record_placeholder(const RecordInfo& type) {
@@ -131,19 +152,23 @@ Record record_placeholder(const RecordInfo& type) {
 
 }  // namespace
 
-void push_unknown(lua_State* L) {
+void push_unknown(lua_State* L, const RecordInfo* item) {
   lua_pushboolean(L, 1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &unknown_made_key);
-  lua_newuserdatauv(L, 0, 0);
+  lua_newuserdatauv(L, 0, item == nullptr ? 0 : 1);
+  if (item != nullptr) {
+    lua_pushlightuserdata(L, const_cast<RecordInfo*>(item));
+    lua_setiuservalue(L, -2, 1);
+  }
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &unknown_key) != LUA_TTABLE) {
     lua_pop(L, 1);
     static const luaL_Reg methods[] = {
-        {"__add", again},        {"__sub", again},          {"__mul", again},    {"__div", again},
-        {"__mod", again},        {"__pow", again},          {"__unm", again},    {"__idiv", again},
-        {"__band", again},       {"__bor", again},          {"__bxor", again},   {"__shl", again},
-        {"__shr", again},        {"__bnot", again},         {"__concat", again}, {"__len", again},
-        {"__index", again},      {"__call", called},        {"__lt", compared},  {"__le", compared},
-        {"__newindex", ignored}, {"__tostring", to_string}, {nullptr, nullptr}};
+        {"__add", again},           {"__sub", again},          {"__mul", again},    {"__div", again},
+        {"__mod", again},           {"__pow", again},          {"__unm", again},    {"__idiv", again},
+        {"__band", again},          {"__bor", again},          {"__bxor", again},   {"__shl", again},
+        {"__shr", again},           {"__bnot", again},         {"__concat", again}, {"__len", again},
+        {"__index", index_unknown}, {"__call", called},        {"__lt", compared},  {"__le", compared},
+        {"__newindex", ignored},    {"__tostring", to_string}, {nullptr, nullptr}};
     lua_newtable(L);
     luaL_setfuncs(L, methods, 0);
     lua_pushliteral(L, "placeholder");

@@ -15,7 +15,8 @@
 
 namespace asperity::lua {
 
-void push_unknown(lua_State* L);
+// `item`: the records of an unknown list, whose fields are checked.
+void push_unknown(lua_State* L, const RecordInfo* item = nullptr);
 // "Surface", "number", "Profile[]", "Roughness", "Profile[] with lines: Traverse[]".
 Value placeholder_of(const std::string& type);
 

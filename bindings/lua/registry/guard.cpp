@@ -25,7 +25,7 @@ struct Pusher {
   void operator()(double v) const { lua_pushnumber(L, v); }
   void operator()(const std::string& v) const { lua_pushlstring(L, v.data(), v.size()); }
   void operator()(Value::Function v) const { lua_pushcfunction(L, v); }
-  void operator()(Unknown) const { push_unknown(L); }
+  void operator()(Unknown v) const { push_unknown(L, v.item); }
   void operator()(Script v) const {
     const std::string_view text = embedded_script(v.name);
     lua_pushfstring(L, "=asperity.%s", v.name);

@@ -40,6 +40,13 @@ bool any_argument_unknown(const Call& call) {
 Values placeholders_of(const Function& function) {
   Values results;
   for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
+  for (const Value& value : results)
+    if (const auto* iterator = std::get_if<std::shared_ptr<Iterator>>(&value.data);
+        iterator != nullptr && function.look_at_table != nullptr)
+      (*iterator)->table = [look = function.look_at_table](const Call& call, const auto&) {
+        look(call);
+        return placeholder_of("Table");
+      };
   return results;
 }
 

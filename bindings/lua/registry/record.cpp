@@ -156,9 +156,13 @@ int guarded_table(lua_State* L) {
     const std::shared_ptr<Iterator> iterator = std::exchange(*block, nullptr);
     const std::string name = iterator->name + ":table";
     Call call(L, name, true);
-    if (call.session().dry_run) return {placeholder_of("Table")};
     return {iterator->table(call, [&] { return turn_of(call, *iterator); })};
   });
+}
+
+int table_of(lua_State* L) {
+  const int results = guarded_table(L);
+  return results < 0 ? mistaken_field(L) : results;
 }
 
 int guarded_iterator_index(lua_State* L) {
@@ -167,8 +171,8 @@ int guarded_iterator_index(lua_State* L) {
     const auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
     const Argument key(L, 2);
     const bool known = block != nullptr && *block != nullptr;
-    if (known && key.is_text() && key.text() == "table" && ((*block)->table || Session::of(L).dry_run))
-      return {Value(Value::Function(raising<guarded_table>))};
+    if (known && key.is_text() && key.text() == "table" && (*block)->table)
+      return {Value(Value::Function(table_of))};
     const std::string name = known ? (*block)->name : "an iterator";
     throw Error(ErrorCode::unknown_name,
                 name + " gives an iterator, and " + (key.is_text() ? quoted(key.text()) : key.describe()) +

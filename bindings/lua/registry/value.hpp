@@ -81,7 +81,9 @@ struct Iterator {
   std::function<Value(Call&, const std::function<std::optional<Values>()>& turn)> table = nullptr;
 };
 
-struct Unknown {};
+struct Unknown {
+  const RecordInfo* item = nullptr;  // of a list of records
+};
 
 // From a file of scripts/.
 struct Script {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bindings/lua/metrology/stylus.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -77,6 +78,29 @@ Dimension declared_dimension(const std::string& owner, const std::string& field,
                   ? ""
                   : "it has " + joined(names, " and ") +
                         (owner == "trace" && !in_sections ? "; trace={ section= } gives more" : ""));
+}
+
+// Each column by itself: all mistakes are found.
+void find_mistakes(const std::vector<std::string>& columns, const TraceKeys& traces, Problems& problems) {
+  for (const std::string& name : columns) try {
+      StateTable({name}, traces);
+    } catch (const Error& error) {
+      problems.emplace_back(error.what());
+    }
+}
+
+StateTable columns_given(const Call& call) {
+  std::vector<std::string> names;
+  Problems problems;
+  static const OptionInfo info{
+      .name = "columns", .type = "string[]", .default_text = "", .range_text = "", .sentence = ""};
+  read_texts(call.argument(1), info, names, problems);
+  if (!problems.empty())
+    throw Error(ErrorCode::bad_value, joined(problems, "; "),
+                "write it such as :table{ \"pressure [MPa]\", \"area_fraction [%]\" }");
+  find_mistakes(names, {}, problems);
+  if (!problems.empty()) throw Error(ErrorCode::unknown_name, joined(problems, "; "));
+  return {names, {}};
 }
 
 }  // namespace
@@ -160,17 +184,13 @@ void StateTable::add(Call& call, const Turn& turn) {
   table_.append(row);
 }
 
+void look_at_columns_of_states(const Call& call) {
+  if (!holds_unknown(call.argument(1), 1)) columns_given(call);
+}
+
 Value table_of_states(Call& call, const std::shared_ptr<SpecimenPair>& pair,
                       const std::function<std::optional<Values>()>& turn) {
-  std::vector<std::string> names;
-  Problems problems;
-  static const OptionInfo info{
-      .name = "columns", .type = "string[]", .default_text = "", .range_text = "", .sentence = ""};
-  read_texts(call.argument(1), info, names, problems);
-  if (!problems.empty())
-    throw Error(ErrorCode::bad_value, joined(problems, "; "),
-                "write it such as :table{ \"pressure [MPa]\", \"area_fraction [%]\" }");
-  StateTable table(names, {});
+  StateTable table = columns_given(call);
   std::int64_t press = 0;
   while (auto values = turn()) table.add(call, {values->front(), {}, ++press, pair});
   return object(std::move(table).finish());
@@ -225,13 +245,7 @@ const Block<ApplyKeys>& apply_block() {
                  "traces on the lower body after each event: { stylus=, count=1, seed=1, section= }; a "
                  "section gives the parameters of ISO 21920-2, such as trace.Rz",
                  read_trace)},
-      [](K& keys, Problems& problems) {
-        for (const std::string& name : keys.columns) try {
-            StateTable({name}, keys.trace);
-          } catch (const Error& error) {
-            problems.emplace_back(error.what());
-          }
-      }};
+      [](K& keys, Problems& problems) { find_mistakes(keys.columns, keys.trace, problems); }};
   return block;
 }
 

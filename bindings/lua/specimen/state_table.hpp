@@ -53,6 +53,8 @@ class StateTable {
 Value table_of_states(Call& call, const std::shared_ptr<SpecimenPair>& pair,
                       const std::function<std::optional<Values>()>& turn);
 
+void look_at_columns_of_states(const Call& call);
+
 // protocol:apply.
 Function apply_method();
 
