@@ -408,6 +408,17 @@ Accuracy before_choice(Accuracy accuracy) {
   return accuracy;
 }
 
+Accuracy with_tolerance(Accuracy accuracy, double tolerance) {
+  accuracy.tolerance = tolerance;
+  accuracy.asked.reset();
+  return accuracy;
+}
+
+Accuracy without_companion(Accuracy accuracy) {
+  accuracy.estimate = Accuracy::Estimate::none;
+  return accuracy;
+}
+
 void plan_choice(const Scene& scene, Plan& plan) {
   if (!scene.accuracy.asked) return;
   const AskedError& asked = *scene.accuracy.asked;

@@ -6,9 +6,9 @@
 
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/variation.hpp"
-#include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/surface.hpp"
+#include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/contact/scene/elastic_model.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/specimen/specimen_pair.hpp"
@@ -386,8 +386,8 @@ Scene read_scene(Call& call) {
   const SceneKeys keys = call.options(scene_block);
   Scene scene = scene_of(keys, *keys.lower, *keys.upper);
   if (Refinement* refinement = refinement_of(call.L)) {
-    scene.accuracy.tolerance = refinement->tolerance_for(scene.accuracy.tolerance);
-    if (refinement->tolerance) scene.accuracy.asked.reset();  // replaces a requested accuracy
+    const double tolerance = refinement->tolerance_for(scene.accuracy.tolerance);
+    if (refinement->tolerance) scene.accuracy = with_tolerance(scene.accuracy, tolerance);
   }
   return scene;
 }
@@ -410,7 +410,7 @@ void look_at_scene(const Call& call) {
   KnownBody same_size = upper != nullptr ? *upper : KnownBody{};
   same_size.grid = lower->grid;
   Scene scene = scene_of(keys, stand_in(*lower), flat ? *keys.upper : UpperBody(stand_in(same_size)));
-  scene.accuracy.estimate = Accuracy::Estimate::none;  // needs the true cells
+  scene.accuracy = without_companion(scene.accuracy);  // needs the true cells
   (void)SpecimenPair(scene);
 }
 
