@@ -3,8 +3,11 @@
 
 #include <optional>
 
+#include "bindings/lua/metrology/stylus.hpp"
+#include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/state_table.hpp"
@@ -224,6 +227,91 @@ Values write_protocol(Call& call) {
   const std::string path = writable_path(call, call.text(1, "path"));
   write_atomically(path, log);
   return {path};
+}
+
+struct ApplyKeys {
+  std::vector<std::string> columns;
+  TraceKeys trace;
+};
+
+void read_trace(const Argument& value, const OptionInfo& info, ApplyKeys& keys, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info, "a table such as { stylus=stylus, count=5, seed=1 }", problems);
+  value.each([&](const Argument& key, const Argument& given) {
+    static const std::vector<std::string> names = {"stylus", "count", "seed", "section"};
+    const std::string name(key.is_text() ? key.text() : "");
+    const Object* stylus = name == "stylus" ? given.as_object(class_of<Stylus>()) : nullptr;
+    const std::int64_t whole = given.is_number() ? given.integer().value_or(-1) : -1;
+    if (given.is_unknown()) return;
+    if (name == "section") {
+      OptionInfo length = info;
+      length.name = "trace.section", length.dimension = dimension::length;
+      keys.trace.section = detail::read_quantity(given, length, above(0), problems);
+      return;
+    }
+    if (stylus != nullptr)
+      keys.trace.stylus = std::static_pointer_cast<Stylus>(stylus->pointer);
+    else if (name == "count" && whole >= 1 && whole <= 1'000'000)
+      keys.trace.count = static_cast<int>(whole);
+    else if (name == "seed" && whole >= 0)
+      keys.trace.seed = static_cast<std::uint64_t>(whole);
+    else
+      problems.push_back(quoted(info.name + "." + name) + " is " + given.describe() +
+                         did_you_mean(name, names) + "; give stylus=stylus, count=5, seed=1");
+  });
+}
+
+const Block<ApplyKeys>& apply_block() {
+  using K = ApplyKeys;
+  static const Block<K> block{
+      {custom<K>(
+           "columns", "string[]",
+           "`event` (its number), `kind`, `press` (its number), quantities of a State, roughness of the "
+           "bodies (\"lower.Ra\") or parameters of the traces (\"trace.Ra\"), with a unit or without",
+           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+             read_texts(value, info, keys.columns, problems);
+           })
+           .required(),
+       custom<K>("trace", "table",
+                 "traces on the lower body after each event: { stylus=, count=1, seed=1, section= }; a "
+                 "section gives the parameters of ISO 21920-2, such as trace.Rz",
+                 read_trace)},
+      [](K& keys, Problems& problems) { StateTable::find_mistakes(keys.columns, keys.trace, problems); }};
+  return block;
+}
+
+Values apply(Call& call) {
+  call.object<SpecimenPair>(1, "contact");  // throws for another type
+  auto pair =
+      std::static_pointer_cast<SpecimenPair>(call.argument(1).as_object(class_of<SpecimenPair>())->pointer);
+  const ApplyKeys keys = call.options(apply_block(), 2);
+  StateTable table(keys.columns, keys.trace);
+  ProtocolRun run(call.self<Protocol>(), pair);
+  std::int64_t presses = 0;
+  while (!run.finished()) {
+    const std::size_t k = run.next();
+    const std::optional<asperity::State> state = run.step(call.session().monitor());
+    if (const auto* press = std::get_if<PressRequest>(&run.protocol().events()[k].step)) {
+      ++presses;
+      record_press(call.session(), pair, *press, *state);
+    }
+    table.add(call, {state ? object(*state) : Value(), event_of(run.protocol(), k), presses, pair});
+  }
+  return {object(std::move(table).finish())};
+}
+
+Function apply_method() {
+  return {.name = "apply",
+          .body = apply,
+          .sentence =
+              "Does all events to a contact and returns a table with a row for each event. Quantities of "
+              "a State are empty except after a press.",
+          .parameters = {{"contact", "Contact", "its bodies change"}},
+          .options = &apply_block(),
+          .returns = "Table",
+          .example =
+              "print(protocol:apply(c, { columns={ \"press\", \"area_fraction [%]\", \"lower.Ra [um]\" } }))",
+          .heavy = true};
 }
 
 std::string describe_protocol(const void* self) {

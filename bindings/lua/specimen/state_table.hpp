@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// c:sweep{…}:table{…} and protocol:apply(c, {…}).
+// The tables of c:sweep{…}:table{…} and protocol:apply(c, {…}).
 #pragma once
 
 #include <memory>
@@ -28,6 +28,9 @@ class StateTable {
  public:
   // Throws Error{unknown_name} for a missing field, and Error{bad_unit} for a unit of another dimension.
   StateTable(const std::vector<std::string>& names, TraceKeys traces);
+  // Adds the errors of all names to `problems`.
+  static void find_mistakes(const std::vector<std::string>& names, const TraceKeys& traces,
+                            Problems& problems);
 
   struct Turn {
     Value state;             // nil without press
@@ -53,9 +56,7 @@ class StateTable {
 Value table_of_states(Call& call, const std::shared_ptr<SpecimenPair>& pair,
                       const std::function<std::optional<Values>()>& turn);
 
+// The same in a dry run.
 void look_at_columns_of_states(const Call& call);
-
-// protocol:apply.
-Function apply_method();
 
 }  // namespace asperity::lua
