@@ -71,10 +71,13 @@ Record record_placeholder(const RecordInfo& type);
 
 // Of the placeholder at `index`: a record of an unknown list, otherwise unknown.
 void push_item(lua_State* L, int index) {
-  const bool list =
-      block_at(L, index, &unknown_key) != nullptr && lua_getiuservalue(L, index, 1) == LUA_TLIGHTUSERDATA;
-  if (!list) return push_unknown(L);
-  const auto* item = static_cast<const RecordInfo*>(lua_touserdata(L, -1));
+  const RecordInfo* item = nullptr;
+  if (block_at(L, index, &unknown_key) != nullptr) {
+    lua_getiuservalue(L, index, 1);  // nil for other placeholders
+    item = static_cast<const RecordInfo*>(lua_touserdata(L, -1));
+    lua_pop(L, 1);
+  }
+  if (item == nullptr) return push_unknown(L);
   if (guarded(L, item->name, [&]() -> Values { return {record_placeholder(*item)}; }) < 0) lua_error(L);
 }
 
