@@ -9,7 +9,7 @@
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
-#include "engine/statistics/number_columns.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 
