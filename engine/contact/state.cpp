@@ -9,11 +9,9 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <optional>
 
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
-#include "engine/contact/solution.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "engine/contact/effects/ageing.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"

@@ -12,7 +12,6 @@
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/dimension_scaling.hpp"
-#include "engine/metrology/profile_statistics.hpp"
 #include "engine/metrology/scale_dependence.hpp"
 #include "engine/metrology/spectrum.hpp"
 #include "engine/surface/operations/missing_points.hpp"

@@ -11,7 +11,6 @@
 #include <set>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"

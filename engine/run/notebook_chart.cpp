@@ -10,7 +10,6 @@
 #include "engine/core/grid.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 

@@ -5,9 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "engine/core/digest.hpp"

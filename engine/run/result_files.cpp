@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"

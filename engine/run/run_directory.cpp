@@ -6,12 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <system_error>
-#include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"

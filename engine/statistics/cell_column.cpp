@@ -2,7 +2,6 @@
 #include "engine/statistics/cell_column.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"

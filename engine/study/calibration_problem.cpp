@@ -6,13 +6,11 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/least_squares.hpp"
 
 namespace asperity {
 

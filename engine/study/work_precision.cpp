@@ -14,7 +14,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/study/study_result.hpp"
 
 namespace asperity {
 

@@ -10,7 +10,6 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/grid.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

@@ -3,7 +3,6 @@
 #include "engine/core/files/source_file.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <system_error>

@@ -21,7 +21,6 @@
 #include "engine/metrology/blocked_sums.hpp"
 #include "engine/metrology/gaussian_filter.hpp"
 #include "engine/metrology/levelling.hpp"
-#include "engine/metrology/roughness.hpp"
 #include "engine/metrology/spectrum.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/mpfr.hpp>
-#include <cmath>
 #include <numbers>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"

@@ -11,7 +11,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 
 namespace asperity {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 #include <utility>
-#include <vector>
 
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"

@@ -8,8 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,7 +17,6 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/io/npy_header.hpp"
 
 namespace asperity {

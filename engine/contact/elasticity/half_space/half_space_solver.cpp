@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -16,7 +15,6 @@
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
-#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/cost.hpp"

@@ -7,8 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "engine/contact/elasticity/slabs/slab_level.hpp"
-
 namespace asperity {
 
 namespace {

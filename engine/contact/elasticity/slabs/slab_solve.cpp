@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"

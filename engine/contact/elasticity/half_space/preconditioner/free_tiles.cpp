@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <memory>
