@@ -3,15 +3,8 @@
 // shifts.
 #include "engine/accuracy/companion_grids.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/finer_heights.hpp"
-#include "engine/contact/planned_yield.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/cost.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"

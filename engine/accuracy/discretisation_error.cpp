@@ -2,16 +2,9 @@
 // Constants of the quantities are in contact/quantities.cpp. The shares below were tuned on the same scenes.
 #include "engine/accuracy/discretisation_error.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/state.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <iterator>
-#include <limits>
-#include <mutex>
 #include <numbers>
 
-#include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5_surface.hpp"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/require.hpp"

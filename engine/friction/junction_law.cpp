@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/friction/junction_law.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "engine/contact/effects/ageing.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

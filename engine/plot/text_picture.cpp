@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <string_view>
 
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"

@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 #include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"
 
 namespace asperity {

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <vector>
 
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"
 
 namespace asperity {

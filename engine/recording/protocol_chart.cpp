@@ -2,9 +2,6 @@
 #include "engine/recording/protocol_chart.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"

@@ -2,10 +2,8 @@
 #include "engine/run/case_scheduler.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -14,7 +12,6 @@
 
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/byte_string.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"

@@ -2,12 +2,10 @@
 #include "engine/run/notebook.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_folder.hpp"
 

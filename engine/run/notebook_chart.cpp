@@ -3,12 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/grid.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <optional>
-#include <utility>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"

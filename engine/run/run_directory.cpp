@@ -5,10 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 
-#include "engine/core/digest.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "engine/core/error.hpp"
-#include "engine/core/files/text_table.hpp"
 #include "engine/statistics/table_head.hpp"
 
 namespace asperity {

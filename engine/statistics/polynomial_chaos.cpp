@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/core/require.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "engine/core/files/text_encoding.hpp"
 #include "engine/statistics/number_form.hpp"

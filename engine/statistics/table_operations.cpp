@@ -8,7 +8,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
-#include "engine/core/digest.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

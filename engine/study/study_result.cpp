@@ -7,10 +7,8 @@
 #include <set>
 
 #include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/plot/chart_axis.hpp"
 #include "engine/statistics/sample_mean.hpp"
 
 namespace asperity {

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <utility>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/require.hpp"

@@ -3,13 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <span>
-#include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

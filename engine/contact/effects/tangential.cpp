@@ -2,7 +2,6 @@
 #include "engine/contact/effects/tangential.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/plan.hpp"

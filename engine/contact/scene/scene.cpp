@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "engine/contact/scene/known_effects.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

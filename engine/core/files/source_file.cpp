@@ -6,9 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
 #include "engine/core/text.hpp"
 

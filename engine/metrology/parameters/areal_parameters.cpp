@@ -5,17 +5,11 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
-#include <mutex>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"

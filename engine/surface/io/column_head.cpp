@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/statistics/table_lines.hpp"

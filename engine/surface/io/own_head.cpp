@@ -5,11 +5,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <span>
-#include <string_view>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"

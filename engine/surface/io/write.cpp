@@ -2,9 +2,6 @@
 // Numbers are written in the shortest form that reads back.
 #include "engine/surface/io/write.hpp"
 
-#include <utility>
-
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"

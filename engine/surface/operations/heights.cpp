@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string>
 
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/fourier/fourier.hpp"

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/box/box_solver.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
-#include "engine/contact/planned_yield.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

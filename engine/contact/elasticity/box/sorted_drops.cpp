@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <vector>
 
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"

@@ -2,10 +2,7 @@
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 
 #include <bit>
-#include <limits>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "engine/core/monitor.hpp"
 

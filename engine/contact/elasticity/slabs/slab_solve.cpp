@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_descent.hpp"
@@ -12,8 +8,6 @@
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <bit>
 #include <cstring>
-#include <memory>
-#include <utility>
 
 #include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/error.hpp"
