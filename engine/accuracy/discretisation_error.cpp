@@ -31,10 +31,6 @@ double lacks_by_touch(const State& state, const StateQuantity& quantity) {
   return quantity.cells->lacks(state, rise);
 }
 
-bool follows_touch(const State& state, const StateQuantity& quantity) {
-  return state.companion_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0;
-}
-
 struct Differences {
   double error = 0, correction = 0;  // `correction`: 0 for differences of opposite sign
   bool diverges = false;             // steps grow
@@ -120,7 +116,7 @@ double error_within_outline(const State& state) {
 void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                          DiscretisationEstimate& result) {
   const CellError& cells = *quantity.cells;
-  if (follows_touch(state, quantity)) {
+  if (state.companion_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0) {
     const double lacks = lacks_by_touch(state, quantity);
     constexpr double order = 2;
     result.error = std::abs(lacks) + share_beside_touch * differences(state, quantity, order, true).error;
@@ -168,8 +164,6 @@ void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool
       break;
   }
 }
-
-bool prescribes_approach(PressBy by) { return by == PressBy::approach || by == PressBy::indentation; }
 
 void check(const AskedError& asked, const Effects& named) {
   require(asked.error >= 1e-6 && asked.error < 1, "error", asked.error, "",
@@ -232,7 +226,8 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
     const double value = found->of(state);
     return {value, 0, value, cells.margin};
   }
-  const bool by_approach = prescribes_approach(state.companion_grids()->request().by);
+  const PressBy by = state.companion_grids()->request().by;
+  const bool by_approach = by == PressBy::approach || by == PressBy::indentation;
   const auto wraps = state.geometry().boundary() == Boundary::periodic;
   DiscretisationEstimate result;
   if (found->name == "secant_stiffness" && std::isinf(state.secant_stiffness()))

@@ -18,15 +18,6 @@ Json to_json(const Cell& cell) {
   return {};
 }
 
-namespace {
-
-// A number in the display unit.
-Json shown_json(const Cell& cell, const std::string& unit) {
-  return is_number(cell) && !unit.empty() ? Json(in_unit(*number_in(cell), unit)) : asperity::to_json(cell);
-}
-
-}  // namespace
-
 Notebook::Notebook(std::string name, std::filesystem::path csv, Journal& journal, ExpectationLog& log)
     : name_(std::move(name)), csv_(std::move(csv)), journal_(journal), log_(log) {}
 
@@ -58,7 +49,10 @@ void Notebook::write(std::span<const Entry> given) {
   Json values = Json::object();
   Json units;
   for (const Entry& entry : row) {
-    values.set(entry.column, shown_json(entry.value, entry.unit));
+    // A number in the display unit.
+    const bool in_its_unit = is_number(entry.value) && !entry.unit.empty();
+    values.set(entry.column, in_its_unit ? Json(in_unit(*number_in(entry.value), entry.unit))
+                                         : asperity::to_json(entry.value));
     if (!entry.unit.empty()) units.set(entry.column, entry.unit);
   }
   Json fields = Json::object({{"notebook", name_}, {"row", std::move(values)}});

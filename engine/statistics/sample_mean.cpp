@@ -84,10 +84,6 @@ bool cells_before(const std::vector<Cell>& a, const std::vector<Cell>& b) {
   return false;
 }
 
-bool cells_same(const std::vector<Cell>& a, const std::vector<Cell>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_cell);
-}
-
 std::string group_text(const std::vector<std::string>& by, const std::vector<Cell>& cells) {
   std::string text;
   for (std::size_t k = 0; k < by.size(); ++k)
@@ -158,7 +154,8 @@ std::vector<GroupMean> means_of(const Table& table, const std::string& column,
   for (std::size_t row = 0; row < table.rows(); ++row) {
     std::vector<Cell> cells;
     for (const std::size_t place : places) cells.push_back(table.cell(row, place));
-    auto group = std::ranges::find_if(groups, [&](const Group& g) { return cells_same(g.cells, cells); });
+    auto group = std::ranges::find_if(
+        groups, [&](const Group& g) { return std::ranges::equal(g.cells, cells, same_cell); });
     if (group == groups.end()) group = groups.insert(groups.end(), {std::move(cells), {}});
     const bool known = next < numbers.rows.size() && numbers.rows[next] == row;
     group->values.push_back(known ? numbers.values[0][next] : std::numeric_limits<double>::quiet_NaN());
