@@ -6,7 +6,6 @@
 #include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/finer_heights.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
 namespace asperity {

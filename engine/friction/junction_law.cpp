@@ -3,7 +3,6 @@
 
 #include "engine/contact/effects/ageing.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

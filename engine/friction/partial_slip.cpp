@@ -5,7 +5,6 @@
 
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

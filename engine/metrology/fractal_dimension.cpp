@@ -8,7 +8,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/metrology/dimension_scaling.hpp"
 #include "engine/metrology/scale_dependence.hpp"
 #include "engine/metrology/spectrum.hpp"

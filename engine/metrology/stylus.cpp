@@ -9,7 +9,6 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 #include "engine/surface/parallel_rows.hpp"

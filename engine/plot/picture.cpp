@@ -9,7 +9,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
 namespace asperity {

@@ -10,7 +10,6 @@
 #include <cstdlib>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
 namespace asperity {

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 
 namespace asperity {

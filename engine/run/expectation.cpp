@@ -5,9 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

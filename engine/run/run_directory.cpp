@@ -9,7 +9,6 @@
 
 #include "engine/core/files/disk.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
 

@@ -20,7 +20,6 @@
 #include "engine/core/files/json.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -9,7 +9,6 @@
 #include "engine/contact/after_event.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/arithmetic/random.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

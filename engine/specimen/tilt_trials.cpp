@@ -6,7 +6,6 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/least_squares.hpp"
 
 namespace asperity {

@@ -6,10 +6,8 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -3,14 +3,11 @@
 // discretisation errors with their order, the error of the mean as the root of the replicates.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/study/budget.hpp"
 

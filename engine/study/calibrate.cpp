@@ -8,7 +8,6 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/statistics/polynomial_chaos.hpp"
 #include "engine/study/calibration_problem.hpp"

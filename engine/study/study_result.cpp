@@ -6,9 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/sample_mean.hpp"
 
 namespace asperity {

@@ -7,7 +7,6 @@
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -6,7 +6,6 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

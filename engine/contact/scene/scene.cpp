@@ -6,7 +6,6 @@
 
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -7,7 +7,6 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/metrology/registration/height_map.hpp"
 #include "engine/metrology/registration/natural_spline.hpp"
 #include "engine/metrology/registration/placement.hpp"

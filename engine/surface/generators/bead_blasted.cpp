@@ -11,7 +11,6 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/parallel_rows.hpp"

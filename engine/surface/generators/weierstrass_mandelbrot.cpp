@@ -13,7 +13,6 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/exact_phase.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/table_product.hpp"
 #include "engine/surface/parallel_rows.hpp"

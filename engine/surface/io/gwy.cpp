@@ -2,19 +2,13 @@
 // GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField "/N/data".
 // Source: "Format of Gwyddion Files", Gwyddion user guide. A mask "/N/mask" is applied only if "/N/meta",
 // written by this program, declares it; users mask arbitrary points. Masked heights are the mean.
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <string>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/surface.hpp"

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/operations/missing_points.hpp"

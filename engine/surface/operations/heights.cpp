@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {

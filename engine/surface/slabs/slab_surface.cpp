@@ -7,7 +7,6 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/npy_header.hpp"
 
 namespace asperity {

@@ -8,9 +8,7 @@
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

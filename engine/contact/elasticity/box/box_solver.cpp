@@ -3,7 +3,6 @@
 
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

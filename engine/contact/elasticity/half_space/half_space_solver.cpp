@@ -8,7 +8,6 @@
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -4,9 +4,7 @@
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

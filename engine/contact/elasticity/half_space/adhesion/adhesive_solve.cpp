@@ -6,9 +6,7 @@
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
