@@ -144,21 +144,6 @@ class Bins {
   std::array<Border, half_degrees> borders_{};
 };
 
-// After an exception, the next use tries again.
-template <class T>
-class MadeOnce {
- public:
-  template <class Make>
-  const T& get(const Make& make) {
-    std::call_once(once_, [&] { value_.emplace(make()); });
-    return *value_;
-  }
-
- private:
-  std::once_flag once_;
-  std::optional<T> value_;
-};
-
 Surface prepared_map(const Surface& surface, const ArealPreparation& preparation) {
   Surface result = surface;
   if (preparation.F) result = levelled(result, *preparation.F);
@@ -294,15 +279,15 @@ struct ArealParameters::Groups {
   Surface map;
   ArealPreparation preparation;
   bool flat;
-  MadeOnce<Roughness> heights;
-  MadeOnce<ArealSlopes> slopes;
-  MadeOnce<MaterialRatioCurve> curve;
-  MadeOnce<CoreOfCurve> core;
-  MadeOnce<VolumesOfCurve> volumes;
-  MadeOnce<Hills> hills;
-  MadeOnce<std::optional<TextureAspect>> texture;
-  MadeOnce<std::optional<TextureDirection>> direction;
-  MadeOnce<ArealUncertainty> uncertainty;
+  Lazy<Roughness> heights;
+  Lazy<ArealSlopes> slopes;
+  Lazy<MaterialRatioCurve> curve;
+  Lazy<CoreOfCurve> core;
+  Lazy<VolumesOfCurve> volumes;
+  Lazy<Hills> hills;
+  Lazy<std::optional<TextureAspect>> texture;
+  Lazy<std::optional<TextureDirection>> direction;
+  Lazy<ArealUncertainty> uncertainty;
 
   Groups(Surface m, const Surface& before, ArealPreparation p)
       : map(std::move(m)), preparation(p), flat(rounding_alone(before, map, p)) {}
