@@ -40,16 +40,12 @@ double largest_of(std::span<const double> values) {
   return largest > 0 ? largest : 1;
 }
 
-std::string degrees_text(std::size_t n) {
-  return std::to_string(n - 1) + (n == 2 ? " degree of freedom" : " degrees of freedom");
-}
-
 void add_student_interval(SampleMean& of) {
   const double reach =
       student_t_factor(of.confidence, static_cast<double>(of.count - 1)) * *of.standard_error;
   of.low = of.mean - reach;
   of.high = of.mean + reach;
-  of.method = "Student's t, " + degrees_text(of.count);
+  of.method = "Student's t, " + counted(of.count - 1, "degree") + " of freedom";
   const double cv = of.mean != 0 ? *of.deviation / std::abs(of.mean) : 0;
   if (of.skewness && std::abs(*of.skewness) > 1 && cv > 0.5)
     of.warnings.push_back("the values are skewed (skewness " + format_short(*of.skewness, 2) +
@@ -74,7 +70,8 @@ void add_log_interval(SampleMean& of, std::span<const double> values) {
   const double reach = student_t_factor(of.confidence, n - 1) * of.log_error;
   of.low = elementary::exp(of.log_centre - reach);
   of.high = elementary::exp(of.log_centre + reach);
-  of.method = "log interval of Cox, " + degrees_text(of.count) + "; assumes that the logarithms are normal";
+  of.method = "log interval of Cox, " + counted(of.count - 1, "degree") +
+              " of freedom; assumes that the logarithms are normal";
 }
 
 bool cells_before(const std::vector<Cell>& a, const std::vector<Cell>& b) {
