@@ -3,22 +3,10 @@
 // docs/accuracy.md lists other seeds.
 #include "engine/accuracy/accuracy_choice.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/memory.hpp"
-#include "engine/core/monitor.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"

@@ -3,20 +3,9 @@
 // shifts.
 #include "engine/accuracy/companion_grids.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <utility>
-
 #include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/finer_heights.hpp"
-#include "engine/contact/planned_yield.hpp"
-#include "engine/contact/solver.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/cost.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
 namespace asperity {

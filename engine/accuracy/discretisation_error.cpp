@@ -2,19 +2,10 @@
 // Constants of the quantities are in contact/quantities.cpp. The shares below were tuned on the same scenes.
 #include "engine/accuracy/discretisation_error.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-#include <utility>
-
 #include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -37,10 +28,6 @@ double lacks_by_touch(const State& state, const StateQuantity& quantity) {
   const double rise =
       rise_between_nodes(state.geometry().combined(), state.geometry().boundary() == Boundary::periodic);
   return quantity.cells->lacks(state, rise);
-}
-
-bool follows_touch(const State& state, const StateQuantity& quantity) {
-  return state.companion_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0;
 }
 
 struct Differences {
@@ -128,7 +115,7 @@ double error_within_outline(const State& state) {
 void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                          DiscretisationEstimate& result) {
   const CellError& cells = *quantity.cells;
-  if (follows_touch(state, quantity)) {
+  if (state.companion_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0) {
     const double lacks = lacks_by_touch(state, quantity);
     constexpr double order = 2;
     result.error = std::abs(lacks) + share_beside_touch * differences(state, quantity, order, true).error;
@@ -176,8 +163,6 @@ void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool
       break;
   }
 }
-
-bool prescribes_approach(PressBy by) { return by == PressBy::approach || by == PressBy::indentation; }
 
 void check(const AskedError& asked, const Effects& named) {
   require(asked.error >= 1e-6 && asked.error < 1, "error", asked.error, "",
@@ -240,7 +225,8 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
     const double value = found->of(state);
     return {value, 0, value, cells.margin};
   }
-  const bool by_approach = prescribes_approach(state.companion_grids()->request().by);
+  const PressBy by = state.companion_grids()->request().by;
+  const bool by_approach = by == PressBy::approach || by == PressBy::indentation;
   const auto wraps = state.geometry().boundary() == Boundary::periodic;
   DiscretisationEstimate result;
   if (found->name == "secant_stiffness" && std::isinf(state.secant_stiffness()))

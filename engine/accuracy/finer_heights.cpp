@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/plan.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/files/json.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/planned_yield.hpp"
 
-#include <memory>
-#include <utility>
-#include <variant>
-
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {

@@ -4,14 +4,8 @@
 // and exact answers. Margins and growths: best on 150 such scenes with seeds other than tests/accuracy.
 #include "engine/contact/quantities.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/regions.hpp"
 
-#include <cstddef>
-#include <vector>
-
 #include "engine/core/monitor.hpp"
 
 namespace asperity {

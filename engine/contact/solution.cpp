@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/solution.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <numbers>
-#include <variant>
 
 #include "engine/core/constants.hpp"
 

@@ -1,45 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/state.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <iterator>
-#include <limits>
-#include <mutex>
 #include <numbers>
-#include <optional>
 
-#include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
-#include "engine/contact/solution.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5_surface.hpp"
 
 namespace asperity {
 
 namespace {
-
-// Failures are not cached.
-template <class T>
-class Lazy {
- public:
-  template <class Make>
-  const T& get(Make make) {
-    std::call_once(once_, [&] { value_ = make(); });
-    return value_;
-  }
-
- private:
-  std::once_flag once_;
-  T value_{};
-};
 
 const std::array<std::string, 5> names_of_fields = {"pressure", "gap", "contact", "displacement", "plastic"};
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <deque>
 #include <numbers>
 #include <string>
 
@@ -15,7 +13,6 @@
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -2,7 +2,6 @@
 #include "engine/core/monitor.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace asperity {

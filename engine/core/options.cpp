@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
+#include <optional>
 
 namespace asperity {
 
@@ -40,5 +42,20 @@ class BlockFunction {
 
 // Calls block(k), k in [0, blocks); checks the stop flag between blocks.
 void parallel_for(std::int64_t blocks, BlockFunction block);
+
+// A value made by the first thread that needs it. After an exception, the next use tries again.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(const Make& make) {
+    std::call_once(once_, [&] { value_.emplace(make()); });
+    return *value_;
+  }
+
+ private:
+  std::once_flag once_;
+  std::optional<T> value_;
+};
 
 }  // namespace asperity

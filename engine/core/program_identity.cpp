@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <string_view>
 
 #if __has_include(<gnu/libc-version.h>)
 #include <gnu/libc-version.h>

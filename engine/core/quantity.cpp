@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"

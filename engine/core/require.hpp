@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Errors for numbers of C++ callers and for conditions on several numbers; keys check most script values.
+// Includes what their sentences need: errors, quantities and texts.
 #pragma once
 
 #include <cmath>

@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/friction/junction_law.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "engine/contact/effects/ageing.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

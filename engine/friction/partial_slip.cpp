@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/friction/partial_slip.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "engine/contact/effects/tangential.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -9,7 +9,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

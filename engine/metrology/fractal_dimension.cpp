@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/metrology/dimension_scaling.hpp"
-#include "engine/metrology/profile_statistics.hpp"
 #include "engine/metrology/scale_dependence.hpp"
 #include "engine/metrology/spectrum.hpp"
 #include "engine/surface/operations/missing_points.hpp"

@@ -5,12 +5,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/fourier/fourier_lanes.hpp"

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"

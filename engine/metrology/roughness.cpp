@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/metrology/blocked_sums.hpp"
 #include "engine/surface/operations/missing_points.hpp"

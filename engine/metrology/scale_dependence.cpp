@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "engine/core/memory.hpp"
 #include "engine/core/require.hpp"
 #include "engine/surface/parallel_rows.hpp"
 

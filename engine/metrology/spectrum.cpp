@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/fourier/fourier.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 #include "engine/surface/operations/missing_points.hpp"

@@ -7,7 +7,6 @@
 
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
 namespace asperity {
@@ -406,10 +405,6 @@ int height_of(std::span<const LineChart> panels) {
   return height;
 }
 
-bool has_key_on_the_right(const LineChart& panel) {
-  return panel.legend == "right" || (panel.legend.empty() && !panel.print_width);
-}
-
 std::optional<double> inches_of(const LineChart& chart) {
   return chart.print_width ? std::optional(*chart.print_width / 0.0254) : std::nullopt;
 }
@@ -456,8 +451,8 @@ std::string chart_script(std::span<const LineChart> given, PictureFormat format,
   const int height = height_of(panels);
   for (const LineChart& panel : panels) {
     contents.push_back(gathered(panel, warnings));
-    if (contents.back().keyed && has_key_on_the_right(panel))
-      longest = std::max(longest, contents.back().longest_name);
+    const bool key_on_the_right = panel.legend == "right" || (panel.legend.empty() && !panel.print_width);
+    if (contents.back().keyed && key_on_the_right) longest = std::max(longest, contents.back().longest_name);
   }
   for (std::size_t k = 0; k < panels.size(); ++k)
     for (std::size_t other = 0; other < panels.size(); ++other)

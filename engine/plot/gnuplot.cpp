@@ -18,7 +18,6 @@
 #include <iterator>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"

@@ -4,17 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/plot/chart_axis.hpp"
-#include "engine/plot/gnuplot.hpp"
 #include "engine/plot/palette.hpp"
 
 namespace asperity {

@@ -8,10 +8,8 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <string_view>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
 namespace asperity {

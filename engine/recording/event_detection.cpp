@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -23,6 +21,75 @@ std::string lines(std::size_t first, std::size_t last, const char* to = " to ") 
 }
 
 std::string seconds(double value) { return format_quantity(value, dimension::time, 4); }
+
+// Holes in a recording: empty load cells and absent rows. O(rows). A step lacks rows if it is at least 2.5
+// times each of: the median step; the step that one in twenty exceeds; the median of the three steps before;
+// the median of the three steps after. So bursts and random logging lose no rows.
+struct RecordedHole {
+  std::size_t sample;      // before the hole
+  std::size_t cells = 0;   // rows without a load
+  std::size_t absent = 0;  // estimated
+  std::size_t missing() const { return cells + absent; }
+};
+
+struct RecordedHoles {
+  std::vector<RecordedHole> holes;        // in order
+  double median_step = 0, long_step = 0;  // s; one in twenty exceeds long_step
+};
+
+class Steps {
+ public:
+  explicit Steps(std::span<const double> time) : time_(time) {
+    Array<double> steps;
+    steps.reserve(time.size());
+    for (std::size_t k = 0; k + 1 < time.size(); ++k) steps.push_back(step(k));
+    median_ = least_but(steps, steps.size() / 2);
+    constexpr std::size_t one_in = 20;
+    long_ = least_but(steps, (steps.size() - 1) - std::max<std::size_t>(1, steps.size() / one_in));
+  }
+
+  double median() const { return median_; }
+  double long_step() const { return std::max(median_, long_); }
+
+  std::size_t absent_after(std::size_t row) const {
+    constexpr double least = 2.5, most = 1e9;
+    if (!(step(row) >= least * long_step())) return 0;
+    const double before = row >= beside ? median_of_three(row - beside) : 0;
+    const double after = row + beside + 1 < time_.size() ? median_of_three(row + 1) : 0;
+    const double usual = std::max({long_step(), before, after});
+    if (!(step(row) >= least * usual)) return 0;
+    return static_cast<std::size_t>(std::min(most, std::round(step(row) / usual) - 1));
+  }
+
+ private:
+  static constexpr std::size_t beside = 3;
+
+  double step(std::size_t row) const { return time_[row + 1] - time_[row]; }
+  double median_of_three(std::size_t row) const {
+    const double a = step(row), b = step(row + 1), c = step(row + 2);
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+  }
+  static double least_but(Array<double>& steps, std::size_t shorter) {
+    const auto at = steps.begin() + static_cast<std::ptrdiff_t>(shorter);
+    std::nth_element(steps.begin(), at, steps.end());
+    return *at;
+  }
+
+  std::span<const double> time_;
+  double median_ = 0, long_ = 0;
+};
+
+// `row`: rows with a load, ascending; at least three.
+RecordedHoles recorded_holes(const PressRecording& recording, std::span<const std::uint32_t> row) {
+  const Steps steps(recording.time);
+  RecordedHoles found{{}, steps.median(), steps.long_step()};
+  for (std::size_t k = 0; k + 1 < row.size(); ++k) {
+    RecordedHole hole{k, row[k + 1] - row[k] - 1, 0};
+    for (std::size_t r = row[k]; r < row[k + 1]; ++r) hole.absent += steps.absent_after(r);
+    if (hole.missing() > 0) found.holes.push_back(hole);
+  }
+  return found;
+}
 
 class EventMaker {
  public:

@@ -3,13 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
-#include "engine/core/text.hpp"
-#include "engine/statistics/number_form.hpp"
-#include "engine/statistics/table_head.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 
 namespace asperity {

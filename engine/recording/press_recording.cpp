@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <vector>
 
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"
 
 namespace asperity {
@@ -25,10 +22,6 @@ constexpr std::array<LogColumn, 9> recording_columns{
      {"place", of_place, dimension::number, "place"},
      {"seed", of_place, dimension::number, "seed"},
      {"turn", of_turn, dimension::angle, "turn [deg]"}}};
-
-bool tells_of_events(const LogTable& table) {
-  return table.has(of_dwell) || table.has(of_place) || table.has(of_turn);
-}
 
 class RecordingReader {
  public:
@@ -147,7 +140,7 @@ bool looks_like_recording(const SourceFile& file, const TableForm& form) {
     LogTable table(file, recording_columns, form);
     table.read_titles();
     // The reader reports unreadable units.
-    if (!table.has(at_time) || tells_of_events(table)) return false;
+    if (!table.has(at_time) || table.has(of_dwell) || table.has(of_place) || table.has(of_turn)) return false;
     if (table.has(of_load) == table.has(of_pressure)) return false;
     const std::optional<std::size_t> angle = table.find(of_angle);
     const bool rotation = angle && table.column(*angle)->name == "rotation";
@@ -158,8 +151,7 @@ bool looks_like_recording(const SourceFile& file, const TableForm& form) {
       turns = rotation && table.read(*angle, cells[*angle], false).value != 0;
       return !turns && (rotation || rows < many);
     });
-    if (turns) return false;
-    return rows >= many;
+    return !turns && rows >= many;
   } catch (const Error&) {
     return false;
   }

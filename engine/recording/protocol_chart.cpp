@@ -2,13 +2,8 @@
 #include "engine/recording/protocol_chart.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 
 namespace asperity {

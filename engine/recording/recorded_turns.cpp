@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <utility>
 
 #include "engine/core/grid.hpp"
 #include "engine/core/quantity.hpp"

@@ -2,16 +2,10 @@
 #include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
-#include <span>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

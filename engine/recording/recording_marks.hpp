@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rests, holds and peaks of a recording in order of time, from straight pieces, stray readings and holes. O(n
+// Rests, holds and peaks of a recording in order of time, from straight pieces and stray readings. O(n
 // log n) in the samples.
 #pragma once
 
@@ -56,24 +56,6 @@ double noise_of_bends(std::span<const double> time, std::span<const double> load
 // O(n).
 Array<std::uint32_t> mend_stray_readings(std::span<const double> time, std::span<double> load,
                                          std::optional<double> noise);
-
-// Holes in a recording: empty load cells and absent rows. O(rows). A step lacks rows if
-// it is at least 2.5 times each of: the median step; the step that one in twenty exceeds; the median of the
-// three steps before; the median of the three steps after. So bursts and random logging lose no rows.
-struct RecordedHole {
-  std::size_t sample;      // before the hole
-  std::size_t cells = 0;   // rows without a load
-  std::size_t absent = 0;  // estimated
-  std::size_t missing() const { return cells + absent; }
-};
-
-struct RecordedHoles {
-  std::vector<RecordedHole> holes;        // in order
-  double median_step = 0, long_step = 0;  // s; one in twenty exceeds long_step
-};
-
-// `row`: rows with a load, ascending; at least three.
-RecordedHoles recorded_holes(const PressRecording& recording, std::span<const std::uint32_t> row);
 
 struct DetectionOptions {
   enum class Overshoot { press, ignore };

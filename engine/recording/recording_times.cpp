@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <span>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/recording/recording_marks.hpp"

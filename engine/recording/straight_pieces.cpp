@@ -2,7 +2,6 @@
 #include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace asperity {
 

@@ -2,20 +2,16 @@
 #include "engine/run/case_scheduler.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/byte_string.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"

@@ -4,13 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 
@@ -52,7 +47,7 @@ void judge_rows(const std::vector<Value>& values, double bound, const Holds& hol
   if (offending == 0) return;
   if (offending > shown) clause += " and " + std::to_string(offending - shown) + " more";
   finding.violations.push_back(clause + " (" + std::to_string(offending) + " of " +
-                               std::to_string(values.size()) + (values.size() == 1 ? " row)" : " rows)"));
+                               counted(values.size(), "row") + ")");
 }
 
 std::vector<Level> levels_of(const Table& table, const std::vector<Value>& values, std::size_t other,
@@ -173,7 +168,7 @@ std::vector<Value> values_of(const Expectation& e, const Table& given, const Tab
 std::string found_text(const std::vector<Value>& values, std::size_t rows_of_table) {
   const auto [low, high] =
       std::ranges::minmax_element(values, {}, [](const Value& value) { return value.number; });
-  std::string text = std::to_string(values.size()) + (values.size() == 1 ? " row" : " rows");
+  std::string text = counted(values.size(), "row");
   if (values.size() < rows_of_table) text += " of " + std::to_string(rows_of_table);
   text += low->number == high->number
               ? ", " + format_short(low->number)

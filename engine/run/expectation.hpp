@@ -13,7 +13,7 @@
 
 #include "engine/core/files/json.hpp"
 #include "engine/statistics/table.hpp"
-#include "engine/statistics/table_filter.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <string>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"

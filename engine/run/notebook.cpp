@@ -2,12 +2,10 @@
 #include "engine/run/notebook.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_folder.hpp"
 
@@ -19,15 +17,6 @@ Json to_json(const Cell& cell) {
   if (const std::string* text = std::get_if<std::string>(&cell)) return *text;
   return {};
 }
-
-namespace {
-
-// A number in the display unit.
-Json shown_json(const Cell& cell, const std::string& unit) {
-  return is_number(cell) && !unit.empty() ? Json(in_unit(*number_in(cell), unit)) : asperity::to_json(cell);
-}
-
-}  // namespace
 
 Notebook::Notebook(std::string name, std::filesystem::path csv, Journal& journal, ExpectationLog& log)
     : name_(std::move(name)), csv_(std::move(csv)), journal_(journal), log_(log) {}
@@ -60,7 +49,10 @@ void Notebook::write(std::span<const Entry> given) {
   Json values = Json::object();
   Json units;
   for (const Entry& entry : row) {
-    values.set(entry.column, shown_json(entry.value, entry.unit));
+    // A number in the display unit.
+    const bool in_its_unit = is_number(entry.value) && !entry.unit.empty();
+    values.set(entry.column, in_its_unit ? Json(in_unit(*number_in(entry.value), entry.unit))
+                                         : asperity::to_json(entry.value));
     if (!entry.unit.empty()) units.set(entry.column, entry.unit);
   }
   Json fields = Json::object({{"notebook", name_}, {"row", std::move(values)}});

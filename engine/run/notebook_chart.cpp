@@ -3,15 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/grid.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/number_columns.hpp"
-#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 

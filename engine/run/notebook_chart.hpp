@@ -18,7 +18,7 @@
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/table.hpp"
-#include "engine/statistics/table_filter.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 

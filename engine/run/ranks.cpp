@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/run/ranks.hpp"
 
-#include <chrono>
 #include <thread>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/byte_string.hpp"
 #include "engine/core/files/result_log.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

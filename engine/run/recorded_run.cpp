@@ -4,11 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"

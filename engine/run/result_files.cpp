@@ -2,15 +2,11 @@
 #include "engine/run/result_files.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -5,16 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <functional>
 #include <system_error>
-#include <utility>
 
-#include "engine/core/digest.hpp"
-#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
 

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <exception>
-#include <functional>
-#include <utility>
 
-#include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
-#include "engine/run/run_folder.hpp"
 
 namespace asperity {
 

@@ -11,9 +11,7 @@
 #include <ctime>
 #include <fstream>
 #include <memory>
-#include <string_view>
 #include <thread>
-#include <vector>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/files/disk.hpp"

@@ -8,13 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "engine/core/files/atomic_file.hpp"
@@ -22,7 +20,6 @@
 #include "engine/core/files/json.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -8,9 +8,6 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -2,20 +2,13 @@
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/core/require.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/after_event.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/arithmetic/random.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/monitor.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/specimen/tilt_trials.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <map>
-#include <span>
 
-#include "engine/contact/state.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -2,10 +2,7 @@
 #include "engine/statistics/cell_column.hpp"
 
 #include <cmath>
-#include <utility>
 
-#include "engine/core/error.hpp"
-#include "engine/core/files/text_table.hpp"
 #include "engine/statistics/table_head.hpp"
 
 namespace asperity {

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
-
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

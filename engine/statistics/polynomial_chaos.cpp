@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/least_squares.hpp"
 
 namespace asperity {

@@ -7,9 +7,8 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
-#include "engine/statistics/number_columns.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 
@@ -41,16 +40,12 @@ double largest_of(std::span<const double> values) {
   return largest > 0 ? largest : 1;
 }
 
-std::string degrees_text(std::size_t n) {
-  return std::to_string(n - 1) + (n == 2 ? " degree of freedom" : " degrees of freedom");
-}
-
 void add_student_interval(SampleMean& of) {
   const double reach =
       student_t_factor(of.confidence, static_cast<double>(of.count - 1)) * *of.standard_error;
   of.low = of.mean - reach;
   of.high = of.mean + reach;
-  of.method = "Student's t, " + degrees_text(of.count);
+  of.method = "Student's t, " + counted(of.count - 1, "degree") + " of freedom";
   const double cv = of.mean != 0 ? *of.deviation / std::abs(of.mean) : 0;
   if (of.skewness && std::abs(*of.skewness) > 1 && cv > 0.5)
     of.warnings.push_back("the values are skewed (skewness " + format_short(*of.skewness, 2) +
@@ -75,17 +70,14 @@ void add_log_interval(SampleMean& of, std::span<const double> values) {
   const double reach = student_t_factor(of.confidence, n - 1) * of.log_error;
   of.low = elementary::exp(of.log_centre - reach);
   of.high = elementary::exp(of.log_centre + reach);
-  of.method = "log interval of Cox, " + degrees_text(of.count) + "; assumes that the logarithms are normal";
+  of.method = "log interval of Cox, " + counted(of.count - 1, "degree") +
+              " of freedom; assumes that the logarithms are normal";
 }
 
 bool cells_before(const std::vector<Cell>& a, const std::vector<Cell>& b) {
   for (std::size_t k = 0; k < a.size(); ++k)
     if (!same_cell(a[k], b[k])) return comes_before(a[k], b[k]);
   return false;
-}
-
-bool cells_same(const std::vector<Cell>& a, const std::vector<Cell>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_cell);
 }
 
 std::string group_text(const std::vector<std::string>& by, const std::vector<Cell>& cells) {
@@ -158,7 +150,8 @@ std::vector<GroupMean> means_of(const Table& table, const std::string& column,
   for (std::size_t row = 0; row < table.rows(); ++row) {
     std::vector<Cell> cells;
     for (const std::size_t place : places) cells.push_back(table.cell(row, place));
-    auto group = std::ranges::find_if(groups, [&](const Group& g) { return cells_same(g.cells, cells); });
+    auto group = std::ranges::find_if(
+        groups, [&](const Group& g) { return std::ranges::equal(g.cells, cells, same_cell); });
     if (group == groups.end()) group = groups.insert(groups.end(), {std::move(cells), {}});
     const bool known = next < numbers.rows.size() && numbers.rows[next] == row;
     group->values.push_back(known ? numbers.values[0][next] : std::numeric_limits<double>::quiet_NaN());

@@ -42,6 +42,17 @@ bool same_cell(const Cell& a, const Cell& b) {
   return *x == *y || std::abs(*x - *y) <= relative * std::max(std::abs(*x), std::abs(*y));
 }
 
+bool comes_before(const Cell& a, const Cell& b) {
+  const auto rank = [](const Cell& cell) {
+    return is_empty(cell) ? 0 : is_number(cell) ? 1 : std::holds_alternative<bool>(cell) ? 2 : 3;
+  };
+  if (rank(a) != rank(b)) return rank(a) < rank(b);
+  if (!is_number(a)) return a < b;
+  const double x = *number_in(a), y = *number_in(b);
+  if (std::isnan(x) || std::isnan(y)) return std::isnan(y) && !std::isnan(x);
+  return x < y;
+}
+
 TableColumn split_column_unit(std::string_view name) {
   if (!name.ends_with(']') && !name.ends_with(')') && name.find(" / ") == std::string_view::npos)
     return {std::string(name), {}};

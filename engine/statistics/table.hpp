@@ -30,6 +30,8 @@ std::optional<double> number_in(const Cell& cell);
 std::string short_text(const Cell& cell);
 // Numbers within a relative 1e-12 (nan equals nan), others exactly.
 bool same_cell(const Cell& a, const Cell& b);
+// Order of sorted rows: empty cells, ascending numbers, nan, booleans, texts.
+bool comes_before(const Cell& a, const Cell& b);
 
 // In kN under "load [kN]". Under a plain name a number is in SI, and `unit` is its display unit.
 struct Entry {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "engine/core/files/text_encoding.hpp"
 #include "engine/statistics/number_form.hpp"
@@ -312,7 +311,7 @@ bool TableLines::next_row(std::vector<TableCell>& cells) {
                       ", where " +
                       (whole ? "no cell ends"
                              : "the row has " + std::to_string(cells.size()) + " cells under " +
-                                   std::to_string(heads_.size()) + (heads_.size() == 1 ? " head" : " heads")),
+                                   counted(heads_.size(), "head")),
                   "close the quote at the end of its cell, or remove it");
     return true;
   }
@@ -347,7 +346,7 @@ void TableLines::read_rows(Monitor& monitor, FileProblems& problems,
         here(),
         "there " +
             std::string(cells.size() == 1 ? "is 1 cell" : "are " + std::to_string(cells.size()) + " cells") +
-            " under " + std::to_string(wanted) + (wanted == 1 ? " head" : " heads") +
+            " under " + counted(wanted, "head") +
             (above ? "; give the number of lines above the heads as skip="
                    : "; put # before a line that is no row"));
     if (at_end) return;

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
-#include <utility>
 
-#include "engine/core/quantity.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -38,20 +36,6 @@ JoinColumn join_column(const Table& table, const Table& other, const std::string
   return column;
 }
 
-// Sort order: empty, numbers, NaN, booleans, texts.
-int rank_of(const Cell& cell) {
-  if (is_empty(cell)) return 0;
-  if (is_number(cell)) return std::isnan(*number_in(cell)) ? 2 : 1;
-  return std::holds_alternative<bool>(cell) ? 3 : 4;
-}
-
-bool before(const Cell& a, const Cell& b) {
-  const int one = rank_of(a), another = rank_of(b);
-  if (one != another) return one < another;
-  if (one == 1 || one == 3) return *number_in(a) < *number_in(b);
-  return one == 4 && std::get<std::string>(a) < std::get<std::string>(b);
-}
-
 class PartnerIndex {
  public:
   PartnerIndex(const Table& table, const Table& other, const std::vector<JoinColumn>& columns)
@@ -62,21 +46,22 @@ class PartnerIndex {
       keys_.push_back(std::move(key));
     }
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::stable_sort(
-        order_, [&](std::size_t a, std::size_t b) { return before(keys_[a].front(), keys_[b].front()); });
+    std::ranges::stable_sort(order_, [&](std::size_t a, std::size_t b) {
+      return comes_before(keys_[a].front(), keys_[b].front());
+    });
   }
 
   std::vector<std::size_t> of(std::size_t row) const {
     const Cell& first = table_.cell(row, columns_.front().here);
     Cell from = first, to = first;
-    if (rank_of(first) == 1) {
+    if (is_number(first) && !std::isnan(*number_in(first))) {
       const double x = *number_in(first), near = std::isfinite(x) ? 2e-12 * std::abs(x) : 0;
       from = x - near;
       to = x + near;
     }
     const auto key = [&](std::size_t k) -> const Cell& { return keys_[k].front(); };
-    const auto begin = std::ranges::lower_bound(order_, from, before, key);
-    const auto end = std::ranges::upper_bound(order_, to, before, key);
+    const auto begin = std::ranges::lower_bound(order_, from, comes_before, key);
+    const auto end = std::ranges::upper_bound(order_, to, comes_before, key);
     std::vector<std::size_t> found;
     for (auto place = begin; place < end; ++place)
       if (is_partner(row, keys_[*place])) found.push_back(*place);
@@ -131,6 +116,19 @@ std::string readable_number(double number, int digits) {
   const std::string text = format_short(number, digits);
   if (text.find('e') == std::string::npos || std::abs(number) < 1 || std::abs(number) >= most) return text;
   return std::to_string(static_cast<std::int64_t>(std::strtod(text.c_str(), nullptr)));
+}
+
+// In the unit of the condition's name, or a quantity.
+Cell wanted_in_si(const Cell& accepted, const std::string& unit_in_name, const TableColumn& column) {
+  const auto* text = std::get_if<std::string>(&accepted);
+  if (text == nullptr) return cell_in_si(accepted, unit_in_name);
+  if (column.unit.empty()) return accepted;
+  if (trimmed(*text).find_first_of("0123456789") != trimmed(*text).find_first_not_of("+-.")) return accepted;
+  try {
+    return from_unit(parse_quantity_in(*text, column.unit), column.unit);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::bad_unit, "`where." + column.name + "`: " + error.sentence(), error.hint());
+  }
 }
 
 }  // namespace
@@ -257,6 +255,71 @@ std::string table_text(const Table& table, std::size_t most, int digits) {
   }
   if (rows < table.rows()) text += "\n  and " + std::to_string(table.rows() - rows) + " more";
   return plain_text(std::move(text));
+}
+
+std::vector<std::size_t> TableFilter::rows(const Table& table) const {
+  std::vector<std::size_t> columns;
+  std::vector<std::vector<Cell>> wanted;
+  for (const Condition& condition : conditions_) {
+    columns.push_back(table.column(condition.column, "where"));
+    wanted.emplace_back();
+    for (const Cell& accepted : condition.accepted)
+      wanted.back().push_back(
+          wanted_in_si(accepted, split_column_unit(condition.column).unit, table.columns()[columns.back()]));
+  }
+  std::vector<std::size_t> matching;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    bool matches = true;
+    for (std::size_t k = 0; matches && k < columns.size(); ++k) {
+      const Cell& cell = table.cell(row, columns[k]);
+      matches =
+          std::ranges::any_of(wanted[k], [&](const Cell& accepted) { return same_cell(cell, accepted); });
+    }
+    if (matches) matching.push_back(row);
+  }
+  return matching;
+}
+
+std::string TableFilter::text() const {
+  std::string text;
+  for (const Condition& condition : conditions_) {
+    std::vector<std::string> values;
+    for (const Cell& cell : condition.accepted) values.push_back(short_text(cell));
+    if (!text.empty()) text += " and ";
+    text += quoted(condition.column) + " = " + joined(values);
+  }
+  return text;
+}
+
+NumberColumns number_columns(const Table& table,
+                             const std::vector<std::pair<std::string, std::string>>& named) {
+  std::vector<std::size_t> places;
+  for (const auto& [key, column] : named) places.push_back(table.column(column, key));
+  NumberColumns found;
+  found.values.resize(places.size());
+  std::vector<double> row_values(places.size());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    bool whole = true;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Cell& cell = table.cell(row, places[k]);
+      const auto number = number_in(cell);
+      if (!number && !is_empty(cell))
+        throw Error(ErrorCode::bad_value,
+                    "column " + quoted(table.columns()[places[k]].name) + " holds the text \"" +
+                        short_text(cell).substr(0, 40) + "\" in row " + std::to_string(row + 1) +
+                        ", and numbers are wanted",
+                    "leave such rows out with `where`, or write the numbers in a column of their own");
+      whole = whole && number && std::isfinite(*number);
+      row_values[k] = number.value_or(0);
+    }
+    if (!whole) {
+      ++found.left_out;
+      continue;
+    }
+    for (std::size_t k = 0; k < places.size(); ++k) found.values[k].push_back(row_values[k]);
+    found.rows.push_back(row);
+  }
+  return found;
 }
 
 }  // namespace asperity

@@ -5,13 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
-#include <optional>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/cell_column.hpp"
 #include "engine/statistics/number_form.hpp"
 #include "engine/statistics/table_head.hpp"

@@ -9,7 +9,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 
 namespace asperity {

@@ -3,14 +3,11 @@
 // discretisation errors with their order, the error of the mean as the root of the replicates.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/study/budget.hpp"
 
@@ -159,10 +156,6 @@ void add_input_sheet(const Budget& budget, std::string& text) {
   if (lines.size() > 1) text += aligned(lines).substr(1) + "\n";
 }
 
-std::string budget_share_text(double share) {
-  return format_short(std::round(1000 * share) / 10 + 0.0, 4) + " %";
-}
-
 std::string grid_text(std::size_t replicates, double cells) {
   std::string text = replicates > 0 ? std::to_string(replicates) + " replicates" : "one run";
   if (cells > 0) text += " on " + format_short(cells) + "²";
@@ -271,9 +264,10 @@ std::string Budget::text() const {
     const bool of_input = !part.halving_seconds && part.name != "tip" && part.name != "noise";
     std::string halving = part.halving;
     if (part.halving_seconds) halving += ", " + format_short(*part.halving_seconds, 2) + " s";
-    lines.push_back({part.name, tidy(part.uncertainty, uncertainty, 3), degrees_text(part.degrees),
-                     (rough && of_input ? "~" : "") + budget_share_text(part.share),
-                     halving + "; then ± " + format_short(part.half_width_after, 3)});
+    lines.push_back(
+        {part.name, tidy(part.uncertainty, uncertainty, 3), degrees_text(part.degrees),
+         (rough && of_input ? "~" : "") + format_short(std::round(1000 * part.share) / 10 + 0.0, 4) + " %",
+         halving + "; then ± " + format_short(part.half_width_after, 3)});
   }
   text += aligned(lines).substr(1) + "\n";
   add_input_sheet(*this, text);

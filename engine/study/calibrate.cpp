@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
 #include "engine/core/constants.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/statistics/polynomial_chaos.hpp"
 #include "engine/study/calibration_problem.hpp"

@@ -4,11 +4,8 @@
 // singular values (Weyl). Only directions above this bound are determined.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/least_squares.hpp"
 #include "engine/study/calibration_problem.hpp"
 
 namespace asperity {

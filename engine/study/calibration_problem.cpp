@@ -3,16 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/statistics/least_squares.hpp"
 
 namespace asperity {
 

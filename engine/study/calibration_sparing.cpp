@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/error.hpp"
-#include "engine/statistics/least_squares.hpp"
 #include "engine/study/calibration_problem.hpp"
 
 namespace asperity {

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
 
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"

@@ -2,13 +2,10 @@
 #include "engine/study/curve_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

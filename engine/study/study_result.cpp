@@ -4,14 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/plot/chart_axis.hpp"
 #include "engine/statistics/sample_mean.hpp"
 
 namespace asperity {

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

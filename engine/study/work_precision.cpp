@@ -4,17 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <set>
-#include <string_view>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/study/study_result.hpp"
 
 namespace asperity {
 

@@ -4,9 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -18,8 +15,7 @@ struct Profile::Data {
   Array<double> heights;
   std::optional<double> radius;
   std::size_t measured;
-  mutable std::once_flag digest_once;
-  mutable std::string digest;
+  mutable Lazy<std::string> digest;
 
   Data(double s, Array<double> h, std::optional<double> r, std::size_t m)
       : spacing(s), heights(std::move(h)), radius(r), measured(m) {}
@@ -68,12 +64,11 @@ std::optional<double> Profile::closed_radius() const { return data_->radius; }
 Range Profile::height_range() const { return known_range(measured_heights()); }
 
 const std::string& Profile::digest() const {
-  std::call_once(data_->digest_once, [&] {
+  return data_->digest.get([&] {
     Digester digester;
     digester.add("profile").add(data_->spacing).add(data_->radius.value_or(0.0)).add(measured_heights());
-    data_->digest = digester.hex();
+    return digester.hex();
   });
-  return data_->digest;
 }
 
 }  // namespace asperity

@@ -3,16 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <span>
-#include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/grid.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -29,9 +23,8 @@ struct Surface::Heights {
   Grid grid;
   Field field;
   std::size_t measured;
-  mutable std::once_flag digest_once, range_once;
-  mutable std::string digest;
-  mutable Range range;
+  mutable Lazy<std::string> digest;
+  mutable Lazy<Range> range;
 
   Heights(const Grid& g, Field f, std::size_t m) : grid(g), field(std::move(f)), measured(m) {}
 };
@@ -85,8 +78,7 @@ const Field& Surface::heights() const {
 double Surface::height(double i, double j) const { return node_value(measured_heights(), i, j); }
 
 Range Surface::height_range() const {
-  std::call_once(data_->range_once, [&] { data_->range = known_range(data_->field.values()); });
-  return data_->range;
+  return data_->range.get([&] { return known_range(data_->field.values()); });
 }
 
 Surface Surface::with_material(Material material) const {
@@ -117,13 +109,12 @@ std::optional<Surface> Surface::remade(int nx, int ny, Monitor& monitor) const {
 }
 
 const std::string& Surface::digest() const {
-  std::call_once(data_->digest_once, [&] {
+  return data_->digest.get([&] {
     const Grid& g = data_->grid;
     Digester digester;
     digester.add("surface").add(g.nx).add(g.ny).add(g.size_x).add(g.size_y).add(data_->field.values());
-    data_->digest = digester.hex();
+    return digester.hex();
   });
-  return data_->digest;
 }
 
 }  // namespace asperity

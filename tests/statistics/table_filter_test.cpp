@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows selected by `where`.
-#include "engine/statistics/table_filter.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 #include "tests/support/run_fixture.hpp"
 

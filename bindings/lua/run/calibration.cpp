@@ -13,7 +13,6 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/statistics/number_columns.hpp"
 #include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {

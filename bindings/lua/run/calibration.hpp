@@ -8,7 +8,7 @@
 
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/statistics/table_filter.hpp"
+#include "engine/statistics/table_operations.hpp"
 #include "engine/study/calibration_report.hpp"
 
 namespace asperity::lua {

@@ -11,7 +11,6 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/statistics/number_columns.hpp"
 #include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {

@@ -9,7 +9,6 @@
 #include "engine/core/quantity.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/histogram.hpp"
-#include "engine/statistics/number_columns.hpp"
 #include "engine/statistics/sample_mean.hpp"
 #include "engine/statistics/table_operations.hpp"
 

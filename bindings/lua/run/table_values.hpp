@@ -12,8 +12,8 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/run/expectation.hpp"
 #include "engine/statistics/table.hpp"
-#include "engine/statistics/table_filter.hpp"
 #include "engine/statistics/table_form.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {
 

@@ -4,12 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

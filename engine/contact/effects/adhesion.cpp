@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/effects/adhesion.hpp"
 
-#include <algorithm>
 #include <numbers>
-#include <utility>
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -7,9 +7,7 @@
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

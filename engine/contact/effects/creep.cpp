@@ -5,7 +5,6 @@
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

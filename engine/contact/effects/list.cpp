@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 // NAME_effect() is defined in NAME.cpp.
 // clang-format off

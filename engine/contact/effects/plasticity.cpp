@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "engine/contact/after_event.hpp"
 #include "engine/contact/plan.hpp"
@@ -11,7 +10,6 @@
 #include "engine/contact/solution.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

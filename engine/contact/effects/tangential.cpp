@@ -2,12 +2,10 @@
 #include "engine/contact/effects/tangential.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <vector>
 
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"

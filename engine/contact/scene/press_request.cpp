@@ -8,7 +8,6 @@
 
 #include "engine/contact/scene/effect.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "engine/contact/scene/known_effects.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

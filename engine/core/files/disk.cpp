@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <random>
-#include <string>
 #include <system_error>
 
 #include "engine/core/error.hpp"

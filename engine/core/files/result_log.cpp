@@ -7,12 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
-#include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

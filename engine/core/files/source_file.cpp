@@ -3,13 +3,10 @@
 #include "engine/core/files/source_file.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
 #include "engine/core/text.hpp"
 

@@ -2,7 +2,6 @@
 #include "engine/core/fourier/fourier_batch.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace asperity {
 

@@ -5,8 +5,6 @@
 #include <optional>
 
 #include "engine/core/error.hpp"
-#include "engine/core/fourier/fourier_batch.hpp"
-#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {

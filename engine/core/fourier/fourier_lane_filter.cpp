@@ -10,7 +10,6 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {

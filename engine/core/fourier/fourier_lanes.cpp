@@ -5,7 +5,6 @@
 #include <numbers>
 #include <string>
 #include <type_traits>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"

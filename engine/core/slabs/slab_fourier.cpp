@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/slabs/slab_fourier.hpp"
 
-#include <algorithm>
-
 #include "engine/core/fourier/fourier_batch.hpp"
 
 namespace asperity {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/slabs/team.hpp"
 
-#include <algorithm>
 #include <cstring>
-#include <utility>
 
 #include "engine/core/monitor.hpp"
 

@@ -5,23 +5,16 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
-#include <mutex>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 #include "engine/metrology/gaussian_filter.hpp"
 #include "engine/metrology/levelling.hpp"
-#include "engine/metrology/roughness.hpp"
 #include "engine/metrology/spectrum.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
@@ -149,21 +142,6 @@ class Bins {
     double cosine, sine;
   };
   std::array<Border, half_degrees> borders_{};
-};
-
-// After an exception, the next use tries again.
-template <class T>
-class MadeOnce {
- public:
-  template <class Make>
-  const T& get(const Make& make) {
-    std::call_once(once_, [&] { value_.emplace(make()); });
-    return *value_;
-  }
-
- private:
-  std::once_flag once_;
-  std::optional<T> value_;
 };
 
 Surface prepared_map(const Surface& surface, const ArealPreparation& preparation) {
@@ -301,15 +279,15 @@ struct ArealParameters::Groups {
   Surface map;
   ArealPreparation preparation;
   bool flat;
-  MadeOnce<Roughness> heights;
-  MadeOnce<ArealSlopes> slopes;
-  MadeOnce<MaterialRatioCurve> curve;
-  MadeOnce<CoreOfCurve> core;
-  MadeOnce<VolumesOfCurve> volumes;
-  MadeOnce<Hills> hills;
-  MadeOnce<std::optional<TextureAspect>> texture;
-  MadeOnce<std::optional<TextureDirection>> direction;
-  MadeOnce<ArealUncertainty> uncertainty;
+  Lazy<Roughness> heights;
+  Lazy<ArealSlopes> slopes;
+  Lazy<MaterialRatioCurve> curve;
+  Lazy<CoreOfCurve> core;
+  Lazy<VolumesOfCurve> volumes;
+  Lazy<Hills> hills;
+  Lazy<std::optional<TextureAspect>> texture;
+  Lazy<std::optional<TextureDirection>> direction;
+  Lazy<ArealUncertainty> uncertainty;
 
   Groups(Surface m, const Surface& before, ArealPreparation p)
       : map(std::move(m)), preparation(p), flat(rounding_alone(before, map, p)) {}

@@ -5,7 +5,6 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/fourier/fourier.hpp"

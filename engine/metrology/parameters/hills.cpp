@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
-#include <vector>
 
-#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"

@@ -35,10 +35,6 @@ void sort_downwards(std::span<double> values) {
   if (from.data() != values.data()) std::copy(from.begin(), from.end(), values.begin());
 }
 
-void require_ratio(double ratio) {
-  require(ratio >= 0 && ratio <= 1, "ratio", ratio, "", "a material ratio is a share from 0 to 1");
-}
-
 }  // namespace
 
 MaterialRatioCurve::MaterialRatioCurve(std::span<const double> heights) {
@@ -59,7 +55,7 @@ double MaterialRatioCurve::at(double place) const {
 }
 
 double MaterialRatioCurve::height(double ratio) const {
-  require_ratio(ratio);
+  require(ratio >= 0 && ratio <= 1, "ratio", ratio, "", "a material ratio is a share from 0 to 1");
   return at(ratio * last_place());
 }
 

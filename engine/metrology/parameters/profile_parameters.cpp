@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include "engine/core/require.hpp"
 #include "engine/metrology/gaussian_filter.hpp"

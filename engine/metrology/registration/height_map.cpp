@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/metrology/blocked_sums.hpp"

@@ -3,14 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <string>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/metrology/registration/height_map.hpp"
 #include "engine/metrology/registration/natural_spline.hpp"
 #include "engine/metrology/registration/placement.hpp"

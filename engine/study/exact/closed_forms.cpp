@@ -3,13 +3,11 @@
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/mpfr.hpp>
-#include <cmath>
 #include <numbers>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity::exact {
 

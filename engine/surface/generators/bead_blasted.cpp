@@ -6,14 +6,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/parallel_rows.hpp"

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/generators/self_affine.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <utility>
-
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/digest.hpp"

@@ -6,17 +6,13 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <tuple>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/exact_phase.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/table_product.hpp"
 #include "engine/surface/parallel_rows.hpp"

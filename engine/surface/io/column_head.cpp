@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/statistics/table_lines.hpp"
@@ -17,16 +16,6 @@ constexpr std::size_t longest_head = 200;
 constexpr std::string_view unit_begins = "[(/", unit_ends = "])";
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-
-// Case matters: "m" of "x_m" is a unit, "a" of "x_a" is not.
-std::optional<double> exact_unit(std::string_view text) {
-  try {
-    const Quantity unit = parse_unit(text);
-    if (unit.dimension == dimension::length) return unit.value;
-  } catch (const Error&) {  // part of the name
-  }
-  return {};
-}
 
 HeadColumn head_column(std::string_view cell) {
   HeadColumn column;
@@ -50,6 +39,15 @@ HeadColumn head_column(std::string_view cell) {
 }
 
 }  // namespace
+
+std::optional<double> exact_unit(std::string_view text) {
+  try {
+    const Quantity unit = parse_unit(text);
+    if (unit.dimension == dimension::length) return unit.value;
+  } catch (const Error&) {  // part of the name
+  }
+  return {};
+}
 
 std::string_view without_mark(std::string_view line) {
   line = trimmed(line);

@@ -4,11 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <limits>
-#include <string>
-#include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -3,9 +3,7 @@
 #include "engine/surface/io/foreign_format.hpp"
 
 #include <array>
-#include <string_view>
 
-#include "engine/core/error.hpp"
 #include "engine/surface/io/archive.hpp"
 
 namespace asperity {

@@ -2,11 +2,6 @@
 // A new format needs one source file and one line here (docs/contributor.md).
 #include "engine/surface/io/format.hpp"
 
-#include <algorithm>
-#include <array>
-#include <vector>
-
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/own_head.hpp"

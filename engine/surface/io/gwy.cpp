@@ -2,19 +2,13 @@
 // GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField "/N/data".
 // Source: "Format of Gwyddion Files", Gwyddion user guide. A mask "/N/mask" is applied only if "/N/meta",
 // written by this program, declares it; users mask arbitrary points. Masked heights are the mean.
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <string>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/surface.hpp"
@@ -117,16 +111,6 @@ DataField read_field(const SourceFile& file, std::string_view content) {
   return field;
 }
 
-// None for other dimensions and unknown units.
-std::optional<double> metres(std::string_view unit) {
-  try {
-    const Quantity parsed = parse_unit(unit);
-    if (parsed.dimension == dimension::length) return parsed.value;
-  } catch (const Error&) {  // unknown unit
-  }
-  return {};
-}
-
 // Its value begins with the number of holes.
 constexpr std::string_view hole_entry = "Not measured";
 
@@ -178,7 +162,7 @@ std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
   if (channels.empty()) refuse_file(file, "holds no map", "maps are the GwyDataFields of a Gwyddion file");
   if (channel.empty()) {
     for (auto found = channels.begin(); found != channels.end(); ++found)
-      if (metres(read_field(file, found->second.field).unit_z)) return found;
+      if (exact_unit(read_field(file, found->second.field).unit_z)) return found;
     return channels.begin();
   }
   std::vector<std::string> titles, listed;
@@ -226,12 +210,12 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
       "the map " + std::to_string(number) + (entry.title.empty() ? "" : " \"" + entry.title + "\"");
   HeightMap map;
   map.heights = exact_field(file, number_type<double>, field.data, side(field.nx), side(field.ny), monitor);
-  map.unit = metres(field.unit_z);
+  map.unit = exact_unit(field.unit_z);
   if (!map.unit && !field.unit_z.empty())
     refuse_file(file, "holds " + name + " in " + shown(field.unit_z) + ", which is no unit of length",
                 "name a map of heights by its number or its title with `channel`");
   map.trace = field.ny == 1;
-  if (const auto unit = metres(field.unit_xy)) {
+  if (const auto unit = exact_unit(field.unit_xy)) {
     for (const double size : {field.size_x, field.size_y})
       if (!(size > 0) || !std::isfinite(size))
         refuse_file(file, "gives " + name + " a size of " + format_short(size));

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/hdf5_surface.hpp"
 
-#include <array>
-#include <limits>
-
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/source_file.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 namespace asperity {
 

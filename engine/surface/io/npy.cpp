@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // NumPy's NPY format, versions 1 to 3. Shape is (ny, nx) for a surface and (n,) for a trace. Objects, records
 // and complex numbers are refused.
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <string>
-
 #include "engine/core/files/text_table.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/npy_header.hpp"

@@ -5,13 +5,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <span>
-#include <string_view>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 
 namespace asperity {
@@ -257,8 +253,8 @@ void refuse_uncertain_lattice(const SourceFile& file, const OwnHead& head) {
   const auto refuse_as = [&](const std::string& finding, const std::string& cure) {
     refuse_file(file,
                 "has a head in lines " + std::to_string(head.first) + " (" + head.words + ") to " +
-                    std::to_string(head.lines) + " over " + std::to_string(head.columns) +
-                    (head.columns == 1 ? " column" : " columns") + " of numbers: " + finding,
+                    std::to_string(head.lines) + " over " + counted(head.columns, "column") +
+                    " of numbers: " + finding,
                 cure);
   };
   const std::string as_matrix = "say `format` = \"text\" for a matrix of heights";

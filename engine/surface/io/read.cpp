@@ -4,12 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/operations/missing_points.hpp"

@@ -2,9 +2,7 @@
 // CSV traces of stylus profilers: lines `key,value`, `Scan Data`, column names with units (`Lateral um,Raw
 // Micrometer`), samples. Positions and `Resolution` are rounded, so the spacing is the least-squares slope of
 // position against sample number. Uneven spacing and samples shorter than `Length` are errors.
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/text_encoding.hpp"

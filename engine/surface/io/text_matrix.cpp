@@ -3,12 +3,6 @@
 // own (`# asperity surface`, `# asperity profile`), `h= w= pixel size= height conversion factor=`, and
 // comments `Width:`, `Height:`, `Value units:`. Two columns are position and height in our own profiles and
 // under a line such as "x [mm],z [um]"; else heights.
-#include <algorithm>
-#include <array>
-#include <optional>
-#include <utility>
-
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/statistics/table_head.hpp"

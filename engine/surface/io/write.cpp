@@ -2,9 +2,6 @@
 // Numbers are written in the shortest form that reads back.
 #include "engine/surface/io/write.hpp"
 
-#include <utility>
-
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
@@ -21,8 +18,6 @@ void write_sur(const Surface& surface, const std::string& path, Monitor& monitor
 
 namespace {
 
-constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
-
 [[noreturn]] void refuse_extension(const std::string& path, const std::string& known) {
   const std::string extension = file_extension(path);
   refuse_bad_file(extension.empty()
@@ -33,64 +28,46 @@ constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
 
 void write_npy(const std::string& path, const std::string& shape, std::span<const double> values, int rows,
                Monitor& monitor) {
-  AtomicFile file(path, FileWords::data);
-  file.write(npy_header(shape));
-  Task task(monitor, "writing", rows);
   const std::size_t row = values.size() / static_cast<std::size_t>(rows);
-  for (int j = 0; j < rows; ++j) {
+  const auto append = [&](std::int64_t j, std::string& bytes) {
     const auto part = values.subspan(static_cast<std::size_t>(j) * row, row);
-    file.write({reinterpret_cast<const char*>(part.data()), part.size_bytes()});
-    task.advance();
-  }
-  file.commit();
+    bytes.append(reinterpret_cast<const char*>(part.data()), part.size_bytes());
+  };
+  write_rows(path, npy_header(shape), rows, append, monitor);
 }
 
 void write_matrix(const Surface& surface, const std::string& path, char separator, Monitor& monitor) {
   const Grid& grid = surface.grid();
   const Field& heights = surface.measured_heights();
-  AtomicFile file(path, FileWords::data);
-  std::string text = "# asperity surface\n# cells = " + std::to_string(grid.nx) + " " +
+  std::string head = "# asperity surface\n# cells = " + std::to_string(grid.nx) + " " +
                      std::to_string(grid.ny) + "\n# size [m] = " + format_exact(grid.size_x) + " " +
                      format_exact(grid.size_y) + "\n# unit [m] = 1\n";
   if (!surface.complete())
-    text += "# not measured = " + std::to_string(grid.nodes() - surface.measured()) + ", written as nan\n";
-  Task task(monitor, "writing", grid.ny);
-  for (int j = 0; j < grid.ny; ++j) {
+    head += "# not measured = " + std::to_string(grid.nodes() - surface.measured()) + ", written as nan\n";
+  const auto append = [&](std::int64_t j, std::string& text) {
     for (int i = 0; i < grid.nx; ++i) {
       if (i > 0) text += separator;
-      text += format_exact(heights(i, j));
+      text += format_exact(heights(i, static_cast<int>(j)));
     }
     text += '\n';
-    if (text.size() >= bytes_a_piece || j + 1 == grid.ny) {
-      file.write(text);
-      text.clear();
-    }
-    task.advance();
-  }
-  file.commit();
+  };
+  write_rows(path, std::move(head), grid.ny, append, monitor);
 }
 
 void write_trace(const Profile& profile, const std::string& path, char separator, Monitor& monitor) {
-  AtomicFile file(path, FileWords::data);
-  std::string text = "# asperity profile\n# samples = " + std::to_string(profile.size()) +
+  std::string head = "# asperity profile\n# samples = " + std::to_string(profile.size()) +
                      "\n# spacing [m] = " + format_exact(profile.spacing()) + "\n";
   if (profile.closed_radius())
-    text += "# closed radius [m] = " + format_exact(*profile.closed_radius()) + "\n";
+    head += "# closed radius [m] = " + format_exact(*profile.closed_radius()) + "\n";
   const auto heights = profile.measured_heights();
   if (!profile.complete())
-    text += "# not measured = " + std::to_string(heights.size() - profile.measured()) + ", written as nan\n";
-  text += "# position [m], height [m]\n";
-  Task task(monitor, "writing", profile.size());
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    text += format_exact(static_cast<double>(k) * profile.spacing()) + separator + format_exact(heights[k]) +
-            '\n';
-    if (text.size() >= bytes_a_piece || k + 1 == heights.size()) {
-      file.write(text);
-      text.clear();
-    }
-    task.advance();
-  }
-  file.commit();
+    head += "# not measured = " + std::to_string(heights.size() - profile.measured()) + ", written as nan\n";
+  head += "# position [m], height [m]\n";
+  const auto append = [&](std::int64_t k, std::string& text) {
+    text += format_exact(static_cast<double>(k) * profile.spacing()) + separator +
+            format_exact(heights[static_cast<std::size_t>(k)]) + '\n';
+  };
+  write_rows(path, std::move(head), profile.size(), append, monitor);
 }
 
 Surface as_stored(const Surface& surface, std::string_view extension) {
@@ -102,6 +79,23 @@ Surface as_stored(const Surface& surface, std::string_view extension) {
 }
 
 }  // namespace
+
+void write_rows(const std::string& path, std::string head, std::int64_t rows,
+                const std::function<void(std::int64_t row, std::string& bytes)>& append, Monitor& monitor) {
+  constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
+  AtomicFile file(path, FileWords::data);
+  std::string bytes = std::move(head);
+  Task task(monitor, "writing", rows);
+  for (std::int64_t row = 0; row < rows; ++row) {
+    append(row, bytes);
+    if (bytes.size() >= bytes_a_piece || row + 1 == rows) {
+      file.write(bytes);
+      bytes.clear();
+    }
+    task.advance();
+  }
+  file.commit();
+}
 
 void write_surface(const Surface& given, const std::string& path, Monitor& monitor) {
   const std::string extension = file_extension(path);
@@ -123,7 +117,8 @@ void write_surface(const Surface& given, const std::string& path, Monitor& monit
 void write_profile(const Profile& profile, const std::string& path, Monitor& monitor) {
   const std::string extension = file_extension(path);
   if (extension == "npy")
-    return write_npy(path, std::to_string(profile.size()) + ",", profile.measured_heights(), 1, monitor);
+    return write_npy(path, std::to_string(profile.size()) + ",", profile.measured_heights(), profile.size(),
+                     monitor);
   if (extension == "txt") return write_trace(profile, path, ' ', monitor);
   if (extension == "csv") return write_trace(profile, path, ',', monitor);
   refuse_extension(path, ".csv, .txt or .npy");

@@ -6,7 +6,10 @@
 // replaced atomically.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "engine/core/monitor.hpp"
 #include "engine/surface/profile.hpp"
@@ -19,5 +22,9 @@ void write_surface(const Surface& surface, const std::string& path, Monitor& mon
 
 // .csv and .txt (position, height, header of spacing and radius) or .npy (heights).
 void write_profile(const Profile& profile, const std::string& path, Monitor& monitor = Monitor::silent());
+
+// For writers of a format: writes `head`, then what `append` adds for each row, in pieces.
+void write_rows(const std::string& path, std::string head, std::int64_t rows,
+                const std::function<void(std::int64_t row, std::string& bytes)>& append, Monitor& monitor);
 
 }  // namespace asperity

@@ -7,21 +7,11 @@
 #include <zip.h>
 #include <pugixml.hpp>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <map>
-#include <span>
-#include <string>
-#include <vector>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/archive.hpp"

@@ -3,14 +3,9 @@
 // distinct x and y; every coordinate must be within a quarter of a cell of its lattice line. A duplicate
 // point is an error, a missing point is a hole. Scattered points are not gridded. If unnamed columns may or
 // may not be a lattice, the call must name the format.
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <functional>
-#include <limits>
-#include <optional>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/column_head.hpp"

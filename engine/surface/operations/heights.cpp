@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string>
 
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {

@@ -20,10 +20,8 @@
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

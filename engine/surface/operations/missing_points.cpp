@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <string>
-#include <utility>
 
 #include "engine/core/require.hpp"
 #include "engine/surface/operations/holes.hpp"

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 #include "engine/surface/operations/resampling.hpp"
 #include "engine/surface/parallel_rows.hpp"

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <utility>
-#include <vector>
 
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"

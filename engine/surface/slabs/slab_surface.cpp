@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/slabs/slab_surface.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/io/npy_header.hpp"
 
 namespace asperity {

@@ -3,16 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

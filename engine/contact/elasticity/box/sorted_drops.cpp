@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <tuple>
-#include <utility>
-#include <vector>
 
-#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity {

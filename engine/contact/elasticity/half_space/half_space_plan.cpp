@@ -2,8 +2,6 @@
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <utility>
 
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
@@ -12,7 +10,6 @@
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
-#include "engine/core/quantity.hpp"
 
 namespace asperity {
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <numbers>
-#include <utility>
 
-#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <mutex>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
-#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/contact/planned_yield.hpp"
-#include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/layer/elastic_layer.hpp"
 
-#include <string>
-
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

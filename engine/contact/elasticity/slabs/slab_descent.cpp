@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/slabs/slab_descent.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-#include <utility>
-
-#include "engine/contact/elasticity/slabs/slab_level.hpp"
-
 namespace asperity {
 
 namespace {

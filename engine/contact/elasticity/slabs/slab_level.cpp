@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 namespace asperity {
 
 SlabLevel::SlabLevel(Team& level_team, const LevelShape& level_shape, std::span<const double> heights,

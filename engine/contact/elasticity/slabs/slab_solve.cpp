@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 

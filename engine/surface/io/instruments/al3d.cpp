@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // AL3D of Alicona's instruments: 52-byte tags, then the heights in metres, single precision. Missing points
 // are NaN or `InvalidPixelValue`. Layout: SurfaceTopography's reader.
-#include <algorithm>
-#include <cmath>
-
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

@@ -4,13 +4,8 @@
 // 16 bits unless `voidpixels` is 0; a negative or fractional `voidpixels`. Layout: Gwyddion's and
 // SurfaceTopography's readers.
 #include <cctype>
-#include <cmath>
-#include <utility>
 
-#include "engine/core/files/text_table.hpp"
 #include "engine/surface/io/column_head.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

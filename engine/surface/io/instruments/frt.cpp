@@ -2,13 +2,7 @@
 // FRT of MicroProf profilometers: numbered blocks of shape, size (m), scale (m per step), heights and their
 // valid range (16 bits only). A missing point is 1 or out of range. Layout: SurfaceTopography's and
 // Gwyddion's readers.
-#include <cmath>
-#include <map>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {
 

@@ -2,13 +2,6 @@
 // IBW, binary waves of Igor Pro 5 from Asylum Research's microscopes: two headers, numbers, note, units,
 // labels. A third dimension holds several maps, named by its labels. Non-finite numbers are missing points.
 // Source: WaveMetrics' technical note PTN003.
-#include <algorithm>
-#include <array>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/column_head.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 

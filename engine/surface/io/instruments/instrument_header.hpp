@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Header numbers of scanning-probe files, and the choice among several maps.
+// What readers of instrument files share: numbers of text headers, and the choice among several maps.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/files/source_file.hpp"
+#include "engine/core/files/text_table.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 

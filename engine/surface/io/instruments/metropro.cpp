@@ -3,12 +3,7 @@
 // scale factor · wavelength · obliquity factor / R; R = 4096, 32768 or 131072 for a phase resolution of 0, 1
 // or 2. The header may invert the sign. Phases from 2147483640 on are missing. Source: SurfaceTopography's
 // and Gwyddion's readers, after the MetroPro Reference Guide.
-#include <array>
-#include <cmath>
-
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {
 

@@ -2,10 +2,6 @@
 // MI of Agilent's (Molecular Imaging's) microscopes: header lines with 14-character keys, then the numbers of
 // all buffers. A number n of b bits is n / 2^(b-1) of `bufferRange`, in `bufferUnit`; lengths are in metres.
 // No missing points. Layout: Gwyddion's and SurfaceTopography's readers.
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

@@ -4,13 +4,6 @@
 // final value of `\@2:Z scale` in volts, b `\Bytes/pixel`, S the sensitivity in m/V (`[Sens. Zsens]`). From
 // version 9.2 on, integers have 32 bits for any b. No missing points. The z offset is ignored. Layout:
 // Gwyddion's and SurfaceTopography's readers.
-#include <cmath>
-#include <utility>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

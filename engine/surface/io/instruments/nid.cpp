@@ -2,12 +2,6 @@
 // NID of Nanosurf's microscopes: header sections `[Name]` of lines `key=value`, then `#!` and the numbers of
 // all images in the order of [DataSet]. A number n of b bits has height (n / 2^b + 1/2) · `Dim2Range` +
 // `Dim2Min`. No missing points. Layout: the headers, and Gwyddion's reader of EZD.
-#include <map>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

@@ -3,11 +3,7 @@
 // its integer range to its height range in micrometres; distances are in nanometres. Source: surfalize's and
 // SurfaceTopography's readers; they disagree on units and range, and the objective's field (160 um) decides.
 // No mark of missing points is known.
-#include <cmath>
-
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {
 

@@ -3,14 +3,7 @@
 // in wavelengths (`Wavelength`, nm) or, as integers, in fractions of one (`Mult`). `Pixel_size` is in mm
 // along x, `Aspect` times as much along y. Missing points: from 1e38 on; 32766 and 32767 in 16 bits.
 // Layout: Gwyddion's and SurfaceTopography's readers.
-#include <array>
-#include <cmath>
-#include <map>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {
 

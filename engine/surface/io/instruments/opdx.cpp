@@ -2,14 +2,8 @@
 // OPDx of Bruker's Vision64 (Dektak stylus profilometers): nested items of name, type and value. A profile
 // is the container /1D_Data/NAME; `Extent` spans the first to the last sample. Non-finite numbers are
 // missing samples. Layout: SurfaceTopography's reader. Maps (`2D_Data`) are refused for lack of a test file.
-#include <algorithm>
 #include <initializer_list>
-#include <map>
 
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

@@ -2,13 +2,6 @@
 // TIFF of Park Systems' microscopes (PSIA): a picture plus private tags. Height = (n · scale + offset) · gain
 // in the header's unit; sizes are in micrometres. Non-finite numbers are missing points. Layout: Gwyddion's
 // and SurfaceTopography's readers. Little-endian only.
-#include <array>
-#include <cmath>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

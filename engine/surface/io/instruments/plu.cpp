@@ -3,10 +3,8 @@
 // single precision. All lengths are in micrometres. A missing point is 1000001. Layout: Gwyddion's and
 // SurfaceTopography's readers. The only mark is the form of its date.
 #include <cctype>
-#include <cmath>
 
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {
 

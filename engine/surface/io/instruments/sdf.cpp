@@ -2,23 +2,9 @@
 // SDF of ISO 25178-71 and its predecessor (EUR 15178, "aBCR-1.0"): a text or 81-byte header, then the
 // heights by profile, in units of Zscale metres. Missing points: BAD in text; in binary NaN, the least
 // signed or the greatest unsigned number. Layout: ISO 25178-71 and NIST's page.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <string>
-
-#include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/source_file.hpp"
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
-#include "engine/surface/surface.hpp"
+#include "engine/surface/io/write.hpp"
 
 namespace asperity {
 
@@ -220,15 +206,11 @@ void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor
                std::to_string(grid.ny),
            "write .x3p, .h5 or .npy");
   const Field& heights = surface.measured_heights();
-  AtomicFile file(path, FileWords::data);
-  file.write(sdf_header(grid));
-  Task task(monitor, "writing", grid.ny);
-  for (int j = 0; j < grid.ny; ++j) {
-    const auto row = heights.row(j);
-    file.write({reinterpret_cast<const char*>(row.data()), row.size_bytes()});
-    task.advance();
-  }
-  file.commit();
+  const auto append = [&](std::int64_t j, std::string& bytes) {
+    const auto row = heights.row(static_cast<int>(j));
+    bytes.append(reinterpret_cast<const char*>(row.data()), row.size_bytes());
+  };
+  write_rows(path, sdf_header(grid), grid.ny, append, monitor);
 }
 
 }  // namespace asperity

@@ -3,24 +3,10 @@
 // pieces of zlib if compressed. Height = number · spacing + offset in the unit of the z axis. A missing point
 // is the least number minus 2. Only the first object is read. Layout: Gwyddion's, RosettaSciIO's and
 // (compression) surfalize's readers.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <string_view>
-
-#include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/source_file.hpp"
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/column_head.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
-#include "engine/surface/surface.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
+#include "engine/surface/io/write.hpp"
 
 namespace asperity {
 
@@ -310,18 +296,11 @@ void write_sur(const Surface& surface, const std::string& path, Monitor& monitor
   const Range range = surface.height_range();
   const SurSteps steps = steps_of(range, path);
   const std::int32_t least = steps.number(range.min), most = steps.number(range.max);
-  AtomicFile file(path, FileWords::data);
-  file.write(sur_header(surface, steps, least, most, path));
-  Task task(monitor, "writing", grid.ny);
-  Array<std::int32_t> row(static_cast<std::size_t>(grid.nx));
-  for (int j = 0; j < grid.ny; ++j) {
-    std::ranges::transform(heights.row(j), row.begin(), [&](double height) {
-      return std::isnan(height) ? least - 2 : steps.number(height);
-    });
-    file.write({reinterpret_cast<const char*>(row.data()), row.size() * sizeof(std::int32_t)});
-    task.advance();
-  }
-  file.commit();
+  const auto append = [&](std::int64_t j, std::string& bytes) {
+    for (const double height : heights.row(static_cast<int>(j)))
+      put(bytes, std::isnan(height) ? least - 2 : steps.number(height));
+  };
+  write_rows(path, sur_header(surface, steps, least, most, path), grid.ny, append, monitor);
 }
 
 }  // namespace asperity

@@ -3,13 +3,6 @@
 // height: `Z Amplitude` / (greatest - least number); the printed unit, if equal to 1e-4 for floating-point
 // numbers (six printed digits). The file begins at the lower right corner. Non-finite numbers are missing
 // points. Layout: Gwyddion's reader and writer.
-#include <algorithm>
-#include <cmath>
-
-#include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
-#include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
-#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/core/constants.hpp"
 

@@ -5,8 +5,6 @@
 // of nodes).
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/core/error.hpp"

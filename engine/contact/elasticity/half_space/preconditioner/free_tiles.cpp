@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
-#include <memory>
-#include <utility>
 
 #include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/error.hpp"
