@@ -190,27 +190,30 @@ class Block final : public BlockInfo {
   Check check_;
 };
 
+// `read` appends problems that begin with quoted(info.name).
+template <class O, class Read>
+Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
+  Option<O> option;
+  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
+  option.read = std::move(read);
+  return option;
+}
+
 // A plain number for dimension::number. Member: double or optional<double>.
 template <class O, class M>
 Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRange range,
                    std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name),
-                 dimension == dimension::number ? "number" : describe(dimension),
-                 dimension,
-                 "",
-                 range.text(dimension),
-                 std::move(sentence),
-                 false};
-  option.read = [member, range](const Argument& value, const OptionInfo& info, O& options,
-                                Problems& problems) {
-    if (auto number = detail::read_quantity(value, info, range, problems))
-      detail::assign(options.*member, *number);
-  };
+  auto option = custom<O>(
+      std::move(name), dimension == dimension::number ? "number" : describe(dimension), std::move(sentence),
+      [member, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (auto number = detail::read_quantity(value, info, range, problems))
+          detail::assign(options.*member, *number);
+      });
+  option.info.dimension = dimension;
+  option.info.range_text = range.text(dimension);
   option.show = [member, dimension](const O& options) -> std::string {
     const auto value = detail::shown(options.*member);
-    if (!value) return "";
-    return detail::number_text(*value, dimension);
+    return value ? detail::number_text(*value, dimension) : "";
   };
   return option;
 }
@@ -222,13 +225,13 @@ Option<O> number(std::string name, M O::*member, NumberRange range, std::string 
 
 template <class O, class M>
 Option<O> integer(std::string name, M O::*member, NumberRange range, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "integer", {}, "", range.text({}), std::move(sentence), false};
-  option.read = [member, range](const Argument& value, const OptionInfo& info, O& options,
-                                Problems& problems) {
-    if (auto number = detail::read_integer(value, info, range, problems))
-      detail::assign(options.*member, *number);
-  };
+  auto option = custom<O>(
+      std::move(name), "integer", std::move(sentence),
+      [member, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (auto number = detail::read_integer(value, info, range, problems))
+          detail::assign(options.*member, *number);
+      });
+  option.info.range_text = range.text({});
   option.show = [member](const O& options) -> std::string {
     const auto value = detail::shown(options.*member);
     return value ? format_exact(*value) : "";
@@ -239,14 +242,14 @@ Option<O> integer(std::string name, M O::*member, NumberRange range, std::string
 // Member: bool, or optional<bool>, which stays unrecorded.
 template <class O, class M>
 Option<O> flag(std::string name, M O::*member, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "boolean", {}, "", "", std::move(sentence), false};
-  option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-    if (value.is_boolean())
-      options.*member = value.boolean();
-    else
-      detail::wrong_type(value, info, "true or false", problems);
-  };
+  auto option =
+      custom<O>(std::move(name), "boolean", std::move(sentence),
+                [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                  if (value.is_boolean())
+                    options.*member = value.boolean();
+                  else
+                    detail::wrong_type(value, info, "true or false", problems);
+                });
   if constexpr (std::same_as<M, bool>)
     option.show = [member](const O& options) { return std::string(options.*member ? "true" : "false"); };
   return option;
@@ -255,33 +258,30 @@ Option<O> flag(std::string name, M O::*member, std::string sentence) {
 // Member: std::string or optional<std::string>.
 template <class O, class M>
 Option<O> text(std::string name, M O::*member, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "string", {}, "", "", std::move(sentence), false};
-  option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-    if (value.is_text())
-      options.*member = std::string(value.text());
-    else
-      detail::wrong_type(value, info, "a string", problems);
-  };
-  return option;
+  return custom<O>(std::move(name), "string", std::move(sentence),
+                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                     if (value.is_text())
+                       options.*member = std::string(value.text());
+                     else
+                       detail::wrong_type(value, info, "a string", problems);
+                   });
 }
 
 template <class O, class M>
 Option<O> choice(std::string name, M O::*member,
                  std::vector<std::pair<std::string, std::type_identity_t<M>>> words, std::string sentence) {
-  Option<O> option;
   std::string type;
   std::vector<std::string> names;
   for (const auto& [word, value] : words) {
     type += (type.empty() ? "" : "|") + ("\"" + word + "\"");
     names.push_back(word);
   }
-  option.info = {std::move(name), type, {}, "", "", std::move(sentence), false};
-  option.read = [member, words, names](const Argument& value, const OptionInfo& info, O& options,
-                                       Problems& problems) {
-    if (const auto place = detail::read_word(value, info, names, problems))
-      options.*member = words[*place].second;
-  };
+  auto option = custom<O>(
+      std::move(name), type, std::move(sentence),
+      [member, words, names](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (const auto place = detail::read_word(value, info, names, problems))
+          options.*member = words[*place].second;
+      });
   option.show = [member, words](const O& options) -> std::string {
     for (const auto& [word, value] : words)
       if (value == options.*member) return "\"" + word + "\"";
@@ -301,43 +301,24 @@ std::string digest_text(const T& value) {
     return "";
 }
 
-// Member: T, std::optional<T> or std::shared_ptr<const T>.
+// Member: std::optional<T> or std::shared_ptr<const T>.
 template <class T, class O, class M>
 Option<O> native(std::string name, M O::*member, std::string type, std::string wanted, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
-  option.read = [member, wanted](const Argument& value, const OptionInfo& info, O& options,
-                                 Problems& problems) {
-    Object* object = value.as_object(class_of<T>());
-    if (object == nullptr) return detail::wrong_type(value, info, wanted, problems);
-    if (object->closed) {
-      problems.push_back(quoted(info.name) + " was closed");
-      return;
-    }
-    if (object->pointer == nullptr) return;  // of a dry run
-    if constexpr (requires(const M& m) { m.get(); })
-      options.*member = std::static_pointer_cast<T>(object->pointer);
-    else
-      options.*member = *static_cast<const T*>(object->pointer.get());
-  };
+  auto option = custom<O>(
+      std::move(name), std::move(type), std::move(sentence),
+      [member, wanted](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        Object* object = value.as_object(class_of<T>());
+        if (object == nullptr) return detail::wrong_type(value, info, wanted, problems);
+        if (object->closed) return problems.push_back(quoted(info.name) + " was closed");
+        if (object->pointer == nullptr) return;  // of a dry run
+        if constexpr (requires(const M& m) { m.get(); })
+          options.*member = std::static_pointer_cast<T>(object->pointer);
+        else
+          options.*member = *static_cast<const T*>(object->pointer.get());
+      });
   option.show = [member](const O& options) -> std::string {
-    if constexpr (requires { (options.*member).has_value(); }) {
-      return (options.*member).has_value() ? digest_text(*(options.*member)) : std::string();
-    } else if constexpr (requires(const M& m) { m.get(); }) {
-      return options.*member ? digest_text(*(options.*member)) : std::string();
-    } else {
-      return "";
-    }
+    return options.*member ? digest_text(*(options.*member)) : "";
   };
-  return option;
-}
-
-// `read` appends problems that begin with quoted(info.name).
-template <class O, class Read>
-Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
-  Option<O> option;
-  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
-  option.read = std::move(read);
   return option;
 }
 
@@ -371,18 +352,17 @@ Option<O> function(std::string name, std::string wanted, std::string sentence) {
 // A nested table; its problems join the outer list.
 template <class O, class Inner, class M>
 Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "table", {}, "", "", std::move(sentence), false};
+  auto option = custom<O>(
+      std::move(name), "table", std::move(sentence),
+      [member, &inner](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+        try {
+          options.*member = inner.read(value, quoted(info.name));
+        } catch (const Error& error) {
+          problems.push_back(error.what());
+        }
+      });
   option.info.inner = &inner;
-  option.read = [member, &inner](const Argument& value, const OptionInfo& info, O& options,
-                                 Problems& problems) {
-    if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
-    try {
-      options.*member = inner.read(value, quoted(info.name));
-    } catch (const Error& error) {
-      problems.push_back(error.what());
-    }
-  };
   return option;
 }
 
