@@ -28,7 +28,7 @@
 namespace asperity::lua {
 
 Function files_function();
-const Module& protocol_module();
+Module protocol_module();
 Module exact_module();
 Module spread_module();
 

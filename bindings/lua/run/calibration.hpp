@@ -46,6 +46,6 @@ CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, Ca
                                      Calibration found);
 
 template <>
-const Class& class_of<CalibrationReport>();
+Class make_class<CalibrationReport>();
 
 }  // namespace asperity::lua

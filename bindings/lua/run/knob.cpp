@@ -133,37 +133,32 @@ void note_knobs(const Session& session) {
     session.run->note("knobs", session.knobs->json());
 }
 
-const Module& knob_module() {
-  static const Module module = [] {
-    Module m;
-    m.path = "lab.knob";
-    m.sentence = "Numbers of a script that whoever runs it may set otherwise.";
-    m.functions = {
-        {.name = "set",
-         .body = set_knob,
-         .sentence =
-             "Moves a knob in the prompt. After the line has ended, all entered lines run again from the "
-             "start with the new value; heavy calls with unchanged inputs are taken from memory. If the "
-             "run fails, nothing changes. A script cannot move its own knobs.",
-         .parameters = {{"name", "string", "of a knob that was made"},
-                        {"value", "number|string", "between its bounds; a plain number is SI"}},
-         .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};
-    m.call = Function{
-        .name = "knob",
-        .body = make_knob,
-        .sentence =
-            "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
-            "page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run "
-            "records the values it was made with, and replay and resume take those.",
-        .options = &knob_block(),
-        .returns = "number",
-        .example =
-            "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
-            "log=true }",
-        .look = look_at_knob};
-    return m;
-  }();
-  return module;
+Module knob_module() {
+  Module m{"lab.knob", "Numbers of a script that whoever runs it may set otherwise."};
+  m.functions = {
+      {.name = "set",
+       .body = set_knob,
+       .sentence =
+           "Moves a knob in the prompt. After the line has ended, all entered lines run again from the "
+           "start with the new value; heavy calls with unchanged inputs are taken from memory. If the "
+           "run fails, nothing changes. A script cannot move its own knobs.",
+       .parameters = {{"name", "string", "of a knob that was made"},
+                      {"value", "number|string", "between its bounds; a plain number is SI"}},
+       .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};
+  m.call = Function{
+      .name = "knob",
+      .body = make_knob,
+      .sentence =
+          "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
+          "page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run "
+          "records the values it was made with, and replay and resume take those.",
+      .options = &knob_block(),
+      .returns = "number",
+      .example =
+          "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
+          "log=true }",
+      .look = look_at_knob};
+  return m;
 }
 
 }  // namespace asperity::lua

@@ -148,56 +148,49 @@ Function notebook_function() {
 
 // data table
 template <>
-const Class& class_of<Notebook>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Notebook";
-    c.article_name = "a notebook";
-    c.sentence =
-        "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows "
-        "written so far.";
-    c.shareable = false;
-    c.describe = describe_notebook;
-    c.fields = {
-        getter<&Notebook::name>("name", "string", "of the notebook"),
-        getter<Notebook>("file", "string", "where its rows are kept",
-                         [](const Notebook& of) { return of.csv().string(); }),
-        getter<Notebook>("columns", "string[]", "the names of its columns, in order",
-                         [](const Notebook& of) { return of.table().column_names(); }),
-    };
-    c.length = [](const void* self) {
-      return static_cast<const Notebook*>(self)->read(
-          [](const Table& table) { return static_cast<std::int64_t>(table.rows()); });
-    };
-    c.item = [](const void* self, std::int64_t k) {
-      return static_cast<const Notebook*>(self)->read(
-          [k](const Table& table) { return row_value(table, k); });
-    };
-    c.methods = {
-        {.name = "units",
-         .body = units,
-         .sentence =
-             "Gives columns other display units, for the file, charts and print. Stored numbers stay.",
-         .parameters = {{"units", "table", "display unit of each column"}},
-         .example = "book:units{ Ra=\"um\", pressure=\"MPa\" }"},
-        {.name = "table",
-         .body = [](Call& call) -> Values { return {object(*table_of_self(call))}; },
-         .sentence = "The present rows as a Table; later rows do not change it.",
-         .returns = "Table",
-         .example = "print(book:table())",
-         .unknown_when_dry = true},
-    };
-    static constexpr std::array<std::string_view, 4> looking = {"expect", "fit", "histogram", "mean"};
-    for (Function& method : table_methods()) {
-      if (std::ranges::find(looking, method.name) != looking.end()) method.look = look_at_columns;
-      if (method.name == "chart") method.look = look_at_chart;
-      if (method.name == "write") method.look = note_columns;
-      c.methods.push_back(std::move(method));
-    }
-    c.results = table_results();
-    return c;
-  }();
-  return type;
+Class make_class<Notebook>() {
+  Class c{
+      "Notebook", "a notebook",
+      "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows "
+      "written so far."};
+  c.shareable = false;
+  c.describe = describe_notebook;
+  c.fields = {
+      getter<&Notebook::name>("name", "string", "of the notebook"),
+      getter<Notebook>("file", "string", "where its rows are kept",
+                       [](const Notebook& of) { return of.csv().string(); }),
+      getter<Notebook>("columns", "string[]", "the names of its columns, in order",
+                       [](const Notebook& of) { return of.table().column_names(); }),
+  };
+  c.length = [](const void* self) {
+    return static_cast<const Notebook*>(self)->read(
+        [](const Table& table) { return static_cast<std::int64_t>(table.rows()); });
+  };
+  c.item = [](const void* self, std::int64_t k) {
+    return static_cast<const Notebook*>(self)->read([k](const Table& table) { return row_value(table, k); });
+  };
+  c.methods = {
+      {.name = "units",
+       .body = units,
+       .sentence = "Gives columns other display units, for the file, charts and print. Stored numbers stay.",
+       .parameters = {{"units", "table", "display unit of each column"}},
+       .example = "book:units{ Ra=\"um\", pressure=\"MPa\" }"},
+      {.name = "table",
+       .body = [](Call& call) -> Values { return {object(*table_of_self(call))}; },
+       .sentence = "The present rows as a Table; later rows do not change it.",
+       .returns = "Table",
+       .example = "print(book:table())",
+       .unknown_when_dry = true},
+  };
+  static constexpr std::array<std::string_view, 4> looking = {"expect", "fit", "histogram", "mean"};
+  for (Function& method : table_methods()) {
+    if (std::ranges::find(looking, method.name) != looking.end()) method.look = look_at_columns;
+    if (method.name == "chart") method.look = look_at_chart;
+    if (method.name == "write") method.look = note_columns;
+    c.methods.push_back(std::move(method));
+  }
+  c.results = table_results();
+  return c;
 }
 
 }  // namespace asperity::lua

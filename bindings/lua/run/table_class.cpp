@@ -144,40 +144,35 @@ std::vector<Function> table_methods() {
 std::vector<const RecordInfo*> table_results() { return {&histogram_type()}; }
 
 template <>
-const Class& class_of<asperity::Table>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Table";
-    c.article_name = "a table of columns";
-    c.sentence =
-        "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
-        "immutable value whose methods return new ones. Its numbers are in SI; print, files and charts show "
-        "them in the units of the columns.";
-    c.describe = [](const void* self) { return table_text(*static_cast<const Rows*>(self)); };
-    c.native_bytes = [](const void* self) {
-      const auto& table = *static_cast<const Rows*>(self);
-      return table.rows() * table.columns().size() * sizeof(Cell);
-    };
-    c.length = [](const void* self) {
-      return static_cast<std::int64_t>(static_cast<const Rows*>(self)->rows());
-    };
-    c.equal = have_one_digest<Rows>;
-    c.digest = text_of<&Rows::digest>;
-    c.fields = {
-        getter<Rows>("columns", "string[]", "the names of its columns, in order",
-                     [](const Rows& of) { return of.column_names(); }),
-        getter<Rows>("units", "table<string, string>", "the display unit of each column that has one",
-                     [](const Rows& of) { return units_of(of); }),
-        getter<&Rows::name>("name", "string", "where it came from, as errors call it"),
-        getter<&Rows::digest>("digest", "string",
-                              "of columns, units and cells: equal tables have equal digests"),
-    };
-    c.item = [](const void* self, std::int64_t k) { return row_value(*static_cast<const Rows*>(self), k); };
-    c.methods = table_methods();
-    c.results = table_results();
-    return c;
-  }();
-  return type;
+Class make_class<asperity::Table>() {
+  Class c{
+      "Table", "a table of columns",
+      "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
+      "immutable value whose methods return new ones. Its numbers are in SI; print, files and charts show "
+      "them in the units of the columns."};
+  c.describe = [](const void* self) { return table_text(*static_cast<const Rows*>(self)); };
+  c.native_bytes = [](const void* self) {
+    const auto& table = *static_cast<const Rows*>(self);
+    return table.rows() * table.columns().size() * sizeof(Cell);
+  };
+  c.length = [](const void* self) {
+    return static_cast<std::int64_t>(static_cast<const Rows*>(self)->rows());
+  };
+  c.equal = have_one_digest<Rows>;
+  c.digest = text_of<&Rows::digest>;
+  c.fields = {
+      getter<Rows>("columns", "string[]", "the names of its columns, in order",
+                   [](const Rows& of) { return of.column_names(); }),
+      getter<Rows>("units", "table<string, string>", "the display unit of each column that has one",
+                   [](const Rows& of) { return units_of(of); }),
+      getter<&Rows::name>("name", "string", "where it came from, as errors call it"),
+      getter<&Rows::digest>("digest", "string",
+                            "of columns, units and cells: equal tables have equal digests"),
+  };
+  c.item = [](const void* self, std::int64_t k) { return row_value(*static_cast<const Rows*>(self), k); };
+  c.methods = table_methods();
+  c.results = table_results();
+  return c;
 }
 
 // lab.table: constructors of tables.
@@ -254,38 +249,33 @@ Values table_from(Call& call) {
 
 }  // namespace
 
-const Module& table_module() {
-  static const Module module = [] {
-    Module m;
-    m.path = "lab.table";
-    m.sentence = "Tables of measured or computed numbers under named columns with units.";
-    m.functions = {
-        {.name = "read",
-         .body = read_table_file,
-         .sentence =
-             "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of "
-             "heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. "
-             "Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; "
-             "numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local "
-             "forms; columns of words are texts. An ambiguous value is an error with the key to give.",
-         .parameters = {{"path", "string", "the file"}},
-         .options = optional(read_table_block()),
-         .returns = "Table",
-         .example = "local t = lab.table.read(\"mu.csv\", { unit={ force=\"N\" } })",
-         .heavy = true},
-        {.name = "from",
-         .body = table_from,
-         .sentence = "A table of rows that a script has. A column may carry its unit in its name, and a cell "
-                     "may be a quantity.",
-         .parameters = {{"rows", "table[]", "rows, each a table of columns and their values"}},
-         .options = optional(from_block()),
-         .returns = "Table",
-         .example =
-             "print(lab.table.from({ { N=1, mu=0.42 }, { N=2, mu=0.44 } }, { columns={ \"N\", \"mu\" } }))"},
-    };
-    return m;
-  }();
-  return module;
+Module table_module() {
+  Module m{"lab.table", "Tables of measured or computed numbers under named columns with units."};
+  m.functions = {
+      {.name = "read",
+       .body = read_table_file,
+       .sentence =
+           "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of "
+           "heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. "
+           "Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; "
+           "numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local "
+           "forms; columns of words are texts. An ambiguous value is an error with the key to give.",
+       .parameters = {{"path", "string", "the file"}},
+       .options = optional(read_table_block()),
+       .returns = "Table",
+       .example = "local t = lab.table.read(\"mu.csv\", { unit={ force=\"N\" } })",
+       .heavy = true},
+      {.name = "from",
+       .body = table_from,
+       .sentence = "A table of rows that a script has. A column may carry its unit in its name, and a cell "
+                   "may be a quantity.",
+       .parameters = {{"rows", "table[]", "rows, each a table of columns and their values"}},
+       .options = optional(from_block()),
+       .returns = "Table",
+       .example =
+           "print(lab.table.from({ { N=1, mu=0.42 }, { N=2, mu=0.44 } }, { columns={ \"N\", \"mu\" } }))"},
+  };
+  return m;
 }
 
 }  // namespace asperity::lua

@@ -241,100 +241,88 @@ std::size_t bytes_of_protocol(const void* self) {
 
 // data table
 template <>
-const Class& class_of<Protocol>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Protocol";
-    c.article_name = "a protocol";
-    c.sentence =
-        "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
-        "the number of events.";
-    c.length = length;
-    c.describe = describe_protocol;
-    c.native_bytes = bytes_of_protocol;
-    c.equal = have_one_digest<Protocol>;
-    c.digest = text_of<&Protocol::digest>;
-    c.fields = {getter<Protocol>("count", "integer", "number of events",
-                                 [](const Protocol& of) { return length(&of); }),
-                getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
-                getter<recording>("recording", "Recording?",
-                                  "the events and thresholds of the recording; nil without a recording"),
-                getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
-    c.methods = {
-        {.name = "on",
-         .body = on,
-         .sentence =
-             "Does one event after another to a contact, one a turn of a for loop, which is given the event "
-             "and the state of a press, nil after any other. A turn or a load that the contact cannot take "
-             "is an error before the first event. An event that fails raises an error, and leaves the "
-             "contact as it was before that event; a loop that is broken off leaves the rest undone.",
-         .parameters = {{"contact", "Contact", "what it is done to"}},
-         .returns = "iterator<ProtocolEvent and State?>",
-         .example =
-             "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
-         .heavy = true},
-        apply_method(),
-        {.name = "events",
-         .body = events,
-         .sentence = "All events as a list, as p:on gives them.",
-         .returns = "ProtocolEvent[]",
-         .example = "for _, event in ipairs(protocol:events()) do print(event.index, event.text) end"},
-        {.name = "repeated",
-         .body = repeated,
-         .sentence = "The same events several times over, without recorded times.",
-         .options = &repeated_block(),
-         .returns = "Protocol",
-         .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
-                    "rotate=\"90 deg\" } }:repeated{ repeats=8 }"},
-        {.name = "plus",
-         .body = plus,
-         .sentence = "One protocol after another, without recorded times.",
-         .parameters = {{"next", "Protocol", "the next event"}},
-         .returns = "Protocol",
-         .example = "local both = protocol:plus(protocol:repeated{ repeats=2 })"},
-        {.name = "chart",
-         .body = chart_protocol,
-         .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and "
-                     "labelled. A protocol detected in a recording is drawn over the recorded samples. "
-                     "Without recorded times the axis is the sum of dwells, or the event. Returns the "
-                     "file.",
-         .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
-         .options = optional(chart_block()),
-         .returns = "string",
-         .example = "protocol:chart \"protocol.svg\"",
-         .heavy = true},
-        {.name = "write",
-         .body = write_protocol,
-         .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
-                     "pressure or load, and dwell. Shifts, and presses to anything else, are an error.",
-         .parameters = {{"path", "string", "under the run directory"}},
-         .returns = "string",
-         .example = "protocol:write \"press_log.csv\"",
-         .heavy = true},
-    };
-    c.results = {&recording_type(), &span_type(), &event_type()};
-    return c;
-  }();
-  return type;
+Class make_class<Protocol>() {
+  Class c{"Protocol", "a protocol",
+          "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
+          "the number of events."};
+  c.length = length;
+  c.describe = describe_protocol;
+  c.native_bytes = bytes_of_protocol;
+  c.equal = have_one_digest<Protocol>;
+  c.digest = text_of<&Protocol::digest>;
+  c.fields = {getter<Protocol>("count", "integer", "number of events",
+                               [](const Protocol& of) { return length(&of); }),
+              getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
+              getter<recording>("recording", "Recording?",
+                                "the events and thresholds of the recording; nil without a recording"),
+              getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
+  c.methods = {
+      {.name = "on",
+       .body = on,
+       .sentence =
+           "Does one event after another to a contact, one a turn of a for loop, which is given the event "
+           "and the state of a press, nil after any other. A turn or a load that the contact cannot take "
+           "is an error before the first event. An event that fails raises an error, and leaves the "
+           "contact as it was before that event; a loop that is broken off leaves the rest undone.",
+       .parameters = {{"contact", "Contact", "what it is done to"}},
+       .returns = "iterator<ProtocolEvent and State?>",
+       .example = "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
+       .heavy = true},
+      apply_method(),
+      {.name = "events",
+       .body = events,
+       .sentence = "All events as a list, as p:on gives them.",
+       .returns = "ProtocolEvent[]",
+       .example = "for _, event in ipairs(protocol:events()) do print(event.index, event.text) end"},
+      {.name = "repeated",
+       .body = repeated,
+       .sentence = "The same events several times over, without recorded times.",
+       .options = &repeated_block(),
+       .returns = "Protocol",
+       .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
+                  "rotate=\"90 deg\" } }:repeated{ repeats=8 }"},
+      {.name = "plus",
+       .body = plus,
+       .sentence = "One protocol after another, without recorded times.",
+       .parameters = {{"next", "Protocol", "the next event"}},
+       .returns = "Protocol",
+       .example = "local both = protocol:plus(protocol:repeated{ repeats=2 })"},
+      {.name = "chart",
+       .body = chart_protocol,
+       .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and "
+                   "labelled. A protocol detected in a recording is drawn over the recorded samples. "
+                   "Without recorded times the axis is the sum of dwells, or the event. Returns the "
+                   "file.",
+       .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
+       .options = optional(chart_block()),
+       .returns = "string",
+       .example = "protocol:chart \"protocol.svg\"",
+       .heavy = true},
+      {.name = "write",
+       .body = write_protocol,
+       .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
+                   "pressure or load, and dwell. Shifts, and presses to anything else, are an error.",
+       .parameters = {{"path", "string", "under the run directory"}},
+       .returns = "string",
+       .example = "protocol:write \"press_log.csv\"",
+       .heavy = true},
+  };
+  c.results = {&recording_type(), &span_type(), &event_type()};
+  return c;
 }
 
-const Module& protocol_module() {
-  static const Module module = [] {
-    Module m;
-    m.path = "lab.protocol";
-    m.sentence = "Loading protocols: the events of a contact, from tables or press logs.";
-    m.functions = {protocol_read_function()};
-    m.call = Function{.name = "protocol",
-                      .body = make_protocol,
-                      .sentence = "A protocol from a list of events: tables with one key each.",
-                      .options = &protocol_keys(),
-                      .returns = "Protocol",
-                      .example =
-                          "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
-                          "min\" } }, { release=true }, { place={ seed=1 } } }"};
-    return m;
-  }();
-  return module;
+Module protocol_module() {
+  Module m{"lab.protocol", "Loading protocols: the events of a contact, from tables or press logs."};
+  m.functions = {protocol_read_function()};
+  m.call = Function{.name = "protocol",
+                    .body = make_protocol,
+                    .sentence = "A protocol from a list of events: tables with one key each.",
+                    .options = &protocol_keys(),
+                    .returns = "Protocol",
+                    .example =
+                        "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
+                        "min\" } }, { release=true }, { place={ seed=1 } } }"};
+  return m;
 }
 
 }  // namespace asperity::lua
