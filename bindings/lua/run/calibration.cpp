@@ -88,64 +88,57 @@ RecordField<ToldParameter> told_number(const char* name, const char* sentence) {
       .in(dimension_of);
 }
 
-const RecordType<ToldParameter>& calibrated_parameter_type() {
-  using P = ToldParameter;
-  using C = CalibratedParameter;
-  static const RecordType<P> type{
-      "CalibratedParameter",
-      "parameter",
-      "A parameter of a calibration or a fit, in SI.",
-      {told_number<&C::value>("value", "its estimate; nil where the rows do not determine it"),
-       told_number<&C::standard_error>(
-           "u", "its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter"),
-       told_number<&C::low>("low", "lower end of its linearised interval, not cut off at a bound"),
-       told_number<&C::high>("high", "upper end of its linearised interval"),
-       told_number<&C::profile_low>(
-           "profile_low", "lower end of its interval by profile likelihood; nil where the rows give none"),
-       told_number<&C::profile_high>(
-           "profile_high", "upper end of its interval by profile likelihood; nil where the rows give none"),
-       {"share_of_faces", [](const P& p) { return p.of.share_of_faces; },
-        "share of u² that the scatter of replicates makes; 0 without `replicate`"},
-       {"determined", [](const P& p) { return p.of.determined; }, "whether the rows determine it"},
-       {"at_lower", [](const P& p) { return p.of.at_lower; }, "whether it is at its lower bound"},
-       {"at_upper", [](const P& p) { return p.of.at_upper; }, "whether it is at its upper bound"},
-       {"profile_values",
-        [](const P& p) {
-          std::vector<double> values;
-          for (const ProfilePoint& point : p.of.profile) values.push_back(point.value);
-          return values;
-        },
-        "places at which its profile was computed"},
-       {"profile_excess",
-        [](const P& p) {
-          std::vector<double> values;
-          for (const ProfilePoint& point : p.of.profile) values.push_back(point.excess);
-          return values;
-        },
-        "(S - S_min)/s² there; the interval ends where it meets `cut`"}}};
-  return type;
-}
+const RecordType<ToldParameter> calibrated_parameter_type{
+    "CalibratedParameter",
+    "parameter",
+    "A parameter of a calibration or a fit, in SI.",
+    {told_number<&CalibratedParameter::value>("value",
+                                              "its estimate; nil where the rows do not determine it"),
+     told_number<&CalibratedParameter::standard_error>(
+         "u", "its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter"),
+     told_number<&CalibratedParameter::low>("low",
+                                            "lower end of its linearised interval, not cut off at a bound"),
+     told_number<&CalibratedParameter::high>("high", "upper end of its linearised interval"),
+     told_number<&CalibratedParameter::profile_low>(
+         "profile_low", "lower end of its interval by profile likelihood; nil where the rows give none"),
+     told_number<&CalibratedParameter::profile_high>(
+         "profile_high", "upper end of its interval by profile likelihood; nil where the rows give none"),
+     {"share_of_faces", [](const ToldParameter& p) { return p.of.share_of_faces; },
+      "share of u² that the scatter of replicates makes; 0 without `replicate`"},
+     {"determined", [](const ToldParameter& p) { return p.of.determined; }, "whether the rows determine it"},
+     {"at_lower", [](const ToldParameter& p) { return p.of.at_lower; }, "whether it is at its lower bound"},
+     {"at_upper", [](const ToldParameter& p) { return p.of.at_upper; }, "whether it is at its upper bound"},
+     {"profile_values",
+      [](const ToldParameter& p) {
+        std::vector<double> values;
+        for (const ProfilePoint& point : p.of.profile) values.push_back(point.value);
+        return values;
+      },
+      "places at which its profile was computed"},
+     {"profile_excess",
+      [](const ToldParameter& p) {
+        std::vector<double> values;
+        for (const ProfilePoint& point : p.of.profile) values.push_back(point.excess);
+        return values;
+      },
+      "(S - S_min)/s² there; the interval ends where it meets `cut`"}}};
 
-const RecordType<CalibratedSpecimen>& calibrated_specimen_type() {
-  using S = CalibratedSpecimen;
-  static const RecordType<S> type{
-      "CalibratedSpecimen",
-      "specimen",
-      "A specimen of a calibration.",
-      {{"name", &S::name, "as its column tells it"},
-       {"rows", &S::rows, "how many rows are of it"},
-       {"residual", &S::residual,
-        "mean of its residuals: relative to the fit with scatter=\"relative\", in units of `u` where that is "
-        "known, else in SI"}}};
-  return type;
-}
+const RecordType<CalibratedSpecimen> calibrated_specimen_type{
+    "CalibratedSpecimen",
+    "specimen",
+    "A specimen of a calibration.",
+    {{"name", &CalibratedSpecimen::name, "as its column tells it"},
+     {"rows", &CalibratedSpecimen::rows, "how many rows are of it"},
+     {"residual", &CalibratedSpecimen::residual,
+      "mean of its residuals: relative to the fit with scatter=\"relative\", in units of `u` where that is "
+      "known, else in SI"}}};
 
 Record told_parameters(const CalibrationReport& report) {
   Record record;
   record.name = "parameters";
   for (std::size_t p = 0; p < report.found.parameters.size(); ++p) {
     const CalibratedParameter& of = report.found.parameters[p];
-    Record one = calibrated_parameter_type()({of, report.dimensions[p]});
+    Record one = calibrated_parameter_type({of, report.dimensions[p]});
     one.name = of.name;
     record.add(of.name, std::move(one));
   }
@@ -181,19 +174,16 @@ std::vector<double> of_points(const Curve& curve, double CurvePoint::*member) {
   return values;
 }
 
-const RecordType<Curve>& curve_type() {
-  static const RecordType<Curve> type{
-      "FitCurve",
-      "curve",
-      "A fitted curve over the range of the points, with the pointwise interval of the curve.",
-      {{"x", [](const Curve& c) { return of_points(c, &CurvePoint::x); }, "places, ascending"},
-       {"y", [](const Curve& c) { return of_points(c, &CurvePoint::y); }, "the curve there"},
-       {"low", [](const Curve& c) { return of_points(c, &CurvePoint::low); },
-        "lower end of its interval there"},
-       {"high", [](const Curve& c) { return of_points(c, &CurvePoint::high); },
-        "upper end of its interval there"}}};
-  return type;
-}
+const RecordType<Curve> curve_type{
+    "FitCurve",
+    "curve",
+    "A fitted curve over the range of the points, with the pointwise interval of the curve.",
+    {{"x", [](const Curve& c) { return of_points(c, &CurvePoint::x); }, "places, ascending"},
+     {"y", [](const Curve& c) { return of_points(c, &CurvePoint::y); }, "the curve there"},
+     {"low", [](const Curve& c) { return of_points(c, &CurvePoint::low); },
+      "lower end of its interval there"},
+     {"high", [](const Curve& c) { return of_points(c, &CurvePoint::high); },
+      "upper end of its interval there"}}};
 
 template <auto read>
 Getter field(const char* name, const char* type, const char* sentence) {
@@ -207,23 +197,19 @@ struct CalibrationChartKeys {
   std::optional<std::string> file;
 };
 
-const Block<CalibrationChartKeys>& calibration_chart_block() {
-  using K = CalibrationChartKeys;
-  static const Block<K> block{
-      {text("x", &K::x, "the column along; without it, measured y against fitted y"),
-       flag("likelihood", &K::likelihood,
-            "draw the profile likelihood of each parameter instead, with the limit at which its interval "
-            "ends"),
-       text("title", &K::title, "above the chart"),
-       text("file", &K::file,
-            "an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood "
-            "calibration-<y>-likelihood.svg")}};
-  return block;
-}
+const Block<CalibrationChartKeys> calibration_chart_block{
+    {text("x", &CalibrationChartKeys::x, "the column along; without it, measured y against fitted y"),
+     flag("likelihood", &CalibrationChartKeys::likelihood,
+          "draw the profile likelihood of each parameter instead, with the limit at which its interval "
+          "ends"),
+     text("title", &CalibrationChartKeys::title, "above the chart"),
+     text("file", &CalibrationChartKeys::file,
+          "an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood "
+          "calibration-<y>-likelihood.svg")}};
 
 Values chart_calibration(Call& call) {
   const CalibrationReport& report = call.self<CalibrationReport>();
-  const CalibrationChartKeys keys = call.options(calibration_chart_block());
+  const CalibrationChartKeys keys = call.options(calibration_chart_block);
   if (keys.likelihood && keys.x)
     throw Error(ErrorCode::bad_value,
                 "`x` has no effect on the chart of the likelihood, which has the parameters along x",
@@ -371,7 +357,7 @@ Class make_class<CalibrationReport>() {
           "warnings."};
   c.describe = [](const void* self) { return calibration_text(*static_cast<const R*>(self)); };
   c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
-  c.results = {&calibrated_parameter_type(), &calibrated_specimen_type(), &curve_type()};
+  c.results = {&calibrated_parameter_type, &calibrated_specimen_type, &curve_type};
   c.fields = {
       field<told_parameters>("parameters", "table<string, CalibratedParameter>",
                              "each parameter under its name"),
@@ -388,7 +374,7 @@ Class make_class<CalibrationReport>() {
       field<[](const R& r) {
         return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
       }>("name", "string?", "of t:fit: its name in charts"),
-      field<[](const R& r) { return r.curve ? Value(curve_type()(r.curve->curve)) : Value(); }>(
+      field<[](const R& r) { return r.curve ? Value(curve_type(r.curve->curve)) : Value(); }>(
           "curve", "FitCurve?", "of t:fit: the curve with its band, for drawing"),
       field<[](const R& r) { return r.r_squared; }>(
           "r_squared", "number?", "of t:fit: explained share of the scatter of y; nil if all y are equal"),
@@ -426,7 +412,7 @@ Class make_class<CalibrationReport>() {
           "degrees", "integer", "degrees of freedom: observations less parameters that they determine"),
       field<[](const R& r) { return r.found.by_specimens; }>("by_specimens", "boolean",
                                                              "whether the means of specimens were fitted"),
-      field<[](const R& r) { return calibrated_specimen_type().list(r.found.specimens); }>(
+      field<[](const R& r) { return calibrated_specimen_type.list(r.found.specimens); }>(
           "specimens", "CalibratedSpecimen[]", "in the order of their first rows; empty without `specimen`"),
       field<[](const R& r) {
         return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->f) : std::nullopt;
@@ -446,7 +432,7 @@ Class make_class<CalibrationReport>() {
        .body = chart_calibration,
        .sentence = "Draws the measured rows with the fit and its band, or the profile likelihood of each "
                    "parameter; returns the file. Takes no call of the model.",
-       .options = optional(calibration_chart_block()),
+       .options = optional(calibration_chart_block),
        .returns = "string",
        .example =
            "lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, y=\"mu\", "

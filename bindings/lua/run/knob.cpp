@@ -64,36 +64,32 @@ void check_knob(KnobKeys& keys, Problems& problems) {
   }
 }
 
-const Block<KnobKeys>& knob_block() {
-  static const Block<KnobKeys> block{
-      {Option<KnobKeys>(
-           custom<KnobKeys>(
-               "name", "string", "by which it is set; the same one in a script is the same knob",
-               [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-                 if (value.is_text())
-                   keys.knob.name = std::string(value.text());
-                 else
-                   detail::wrong_type(value, info, "a string", problems);
-               }))
-           .required(),
-       knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
-       knob_quantity("to", &RunKnob::to, "the upper end"),
-       knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
-       custom<KnobKeys>(
-           "log", "boolean", "equal ways of the slider are equal ratios",
-           [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-             if (value.is_boolean())
-               keys.knob.log = value.boolean();
-             else
-               detail::wrong_type(value, info, "true or false", problems);
-           })
-           .defaults_to("false")},
-      check_knob};
-  return block;
-}
+const Block<KnobKeys> knob_block{
+    {Option<KnobKeys>(
+         custom<KnobKeys>(
+             "name", "string", "by which it is set; the same one in a script is the same knob",
+             [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
+               if (value.is_text())
+                 keys.knob.name = std::string(value.text());
+               else
+                 detail::wrong_type(value, info, "a string", problems);
+             }))
+         .required(),
+     knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
+     knob_quantity("to", &RunKnob::to, "the upper end"),
+     knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
+     custom<KnobKeys>("log", "boolean", "equal ways of the slider are equal ratios",
+                      [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
+                        if (value.is_boolean())
+                          keys.knob.log = value.boolean();
+                        else
+                          detail::wrong_type(value, info, "true or false", problems);
+                      })
+         .defaults_to("false")},
+    check_knob};
 
 Values make_knob(Call& call) {
-  const KnobKeys keys = call.options(knob_block());
+  const KnobKeys keys = call.options(knob_block);
   const Session& session = call.session();
   const double value = session.knobs->make(keys.knob);
   if (session.notes != nullptr) session.notes->knobs.push_back(keys.knob);
@@ -152,7 +148,7 @@ Module knob_module() {
           "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
           "page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run "
           "records the values it was made with, and replay and resume take those.",
-      .options = &knob_block(),
+      .options = &knob_block,
       .returns = "number",
       .example =
           "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "

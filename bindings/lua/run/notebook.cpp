@@ -25,22 +25,19 @@ struct NotebookKeys {
   std::vector<std::pair<std::string, std::string>> units;
 };
 
-const Block<NotebookKeys>& notebook_block() {
-  static const Block<NotebookKeys> block{
-      {texts_key("columns", "string[]",
-                 "the names of columns in the order in which they stand, with units or without",
-                 &NotebookKeys::columns)
-           .defaults_to("in the order of the rows that first have them, and by name within a row"),
-       custom<NotebookKeys>(
-           "units", "table", "display units of columns, as in { p=\"MPa\" }",
-           [](const Argument& value, const OptionInfo& info, NotebookKeys& keys, Problems& problems) {
-             read_pairs(value, info, keys.units, "units by column, as in { p=\"MPa\" }", problems);
-           })}};
-  return block;
-}
+const Block<NotebookKeys> notebook_block{
+    {texts_key("columns", "string[]",
+               "the names of columns in the order in which they stand, with units or without",
+               &NotebookKeys::columns)
+         .defaults_to("in the order of the rows that first have them, and by name within a row"),
+     custom<NotebookKeys>(
+         "units", "table", "display units of columns, as in { p=\"MPa\" }",
+         [](const Argument& value, const OptionInfo& info, NotebookKeys& keys, Problems& problems) {
+           read_pairs(value, info, keys.units, "units by column, as in { p=\"MPa\" }", problems);
+         })}};
 
 Values open_notebook(Call& call) {
-  const NotebookKeys keys = call.options(notebook_block(), 2);
+  const NotebookKeys keys = call.options(notebook_block, 2);
   RunDirectory& run =
       run_of(call, "keeps no notebook", "return its results, and write the rows after the loop");
   const std::shared_ptr<Notebook> book = run.notebook(call.text(1, "name"));
@@ -100,7 +97,7 @@ void look_at_chart(const Call& call) {
   look_at_columns(call);
   const auto* book = Argument(call.L, 1).as<Notebook>();
   if (book != nullptr && call.session().run != nullptr && !call.argument(1).is_unknown())
-    note_chart(*call.session().run, book->name(), call.options(notebook_chart_block()), {});
+    note_chart(*call.session().run, book->name(), call.options(notebook_chart_block), {});
 }
 
 Values units(Call& call) {
@@ -141,7 +138,7 @@ Function notebook_function() {
               "The notebook of that name: rows stored as <name>.csv in the run directory, written as they "
               "come.",
           .parameters = {{"name", "string", "of the notebook and its file"}},
-          .options = optional(notebook_block()),
+          .options = optional(notebook_block),
           .returns = "Notebook",
           .example = "local book = lab.notebook \"stiffness\""};
 }

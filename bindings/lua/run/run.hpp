@@ -53,7 +53,7 @@ std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 template <>
 Class make_class<Notebook>();
 Function notebook_function();
-const Block<NotebookChart>& notebook_chart_block();
+extern const Block<NotebookChart> notebook_chart_block;
 
 // lab.knob: numbers that the user may change. lab.knob.set moves a knob interactively.
 Module knob_module();

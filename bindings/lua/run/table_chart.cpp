@@ -155,10 +155,7 @@ std::vector<Option<C>> panel_keys(bool first) {
   return keys;
 }
 
-const Block<NotebookChart>& below_block() {
-  static const Block<C> block{panel_keys(false)};
-  return block;
-}
+const Block<NotebookChart> below_block{panel_keys(false)};
 
 struct Wanted {
   bool below;
@@ -185,7 +182,7 @@ void with_functions(const Argument& chart, std::vector<Wanted>& wanted, std::siz
 }
 
 Values chart_rows(Call& call) {
-  NotebookChart options = call.options(notebook_chart_block());
+  NotebookChart options = call.options(notebook_chart_block);
   RunDirectory& run = run_of(call, "draws no charts", "return its results, and draw it after the loop");
   std::vector<Wanted> wanted;
   for (FunctionLine& line : options.functions) wanted.push_back({false, &line});
@@ -210,41 +207,37 @@ Values chart_rows(Call& call) {
 
 }  // namespace
 
-const Block<NotebookChart>& notebook_chart_block() {
-  static const Block<C> block = [] {
-    std::vector<Option<C>> keys = panel_keys(true);
-    Option<C> below = custom<C>(
-        "below", "table",
-        "a second panel below, with the same keys but for `file`; `x` is that of the first unless given",
-        [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
-          if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
-          try {
-            c.below = std::make_shared<C>(below_block().read(value, quoted(info.name)));
-          } catch (const Error& error) {
-            problems.push_back(error.what());
-          }
-        });
-    below.info.inner = &below_block();
-    keys.push_back(std::move(below));
-    keys.push_back(
-        quantity("width", &C::width, dimension::length, inside(0.02, 1),
-                 "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"));
-    keys.push_back(
-        number("font_size", &C::font_size, inside(3, 40),
-               "of the text in print, in points; default 8, with a `width`, or 240 mm without one"));
-    keys.push_back(text("file", &C::file,
-                        "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
-                        "table table-<y>-<x>.svg"));
-    return Block<C>{std::move(keys)};
-  }();
-  return block;
-}
+const Block<NotebookChart> notebook_chart_block = [] {
+  std::vector<Option<C>> keys = panel_keys(true);
+  Option<C> below = custom<C>(
+      "below", "table",
+      "a second panel below, with the same keys but for `file`; `x` is that of the first unless given",
+      [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+        if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+        try {
+          c.below = std::make_shared<C>(below_block.read(value, quoted(info.name)));
+        } catch (const Error& error) {
+          problems.push_back(error.what());
+        }
+      });
+  below.info.inner = &below_block;
+  keys.push_back(std::move(below));
+  keys.push_back(
+      quantity("width", &C::width, dimension::length, inside(0.02, 1),
+               "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"));
+  keys.push_back(number("font_size", &C::font_size, inside(3, 40),
+                        "of the text in print, in points; default 8, with a `width`, or 240 mm without one"));
+  keys.push_back(text("file", &C::file,
+                      "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
+                      "table table-<y>-<x>.svg"));
+  return Block<C>{std::move(keys)};
+}();
 
 Function chart_method() {
   return {.name = "chart",
           .body = chart_rows,
           .sentence = "Draws columns against a column; returns the file.",
-          .options = &notebook_chart_block(),
+          .options = &notebook_chart_block,
           .returns = "string",
           .example = "book:chart{ x=\"D\", y=\"mu\", one_line_per=\"r\" }",
           .heavy = true};

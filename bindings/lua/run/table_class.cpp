@@ -63,19 +63,16 @@ Values cells_of_column(Call& call) {
   return {std::move(list)};
 }
 
-const Block<Join>& join_block() {
-  static const Block<Join> block{
-      {texts_key("by", "string|string[]",
-                 "the column, or columns, in which rows that belong together are equal", &Join::by)
-           .required(),
-       text("suffix", &Join::suffix,
-            "behind the names of the other's columns that both tables have, such as \"_predicted\""),
-       choice("unmatched", &Join::unmatched,
-              {{"error", Unmatched::refuse}, {"leave out", Unmatched::leave_out}, {"keep", Unmatched::keep}},
-              "rows without a partner in the other table: an error, nothing, or a row with empty cells for "
-              "the other")}};
-  return block;
-}
+const Block<Join> join_block{
+    {texts_key("by", "string|string[]",
+               "the column, or columns, in which rows that belong together are equal", &Join::by)
+         .required(),
+     text("suffix", &Join::suffix,
+          "behind the names of the other's columns that both tables have, such as \"_predicted\""),
+     choice("unmatched", &Join::unmatched,
+            {{"error", Unmatched::refuse}, {"leave out", Unmatched::leave_out}, {"keep", Unmatched::keep}},
+            "rows without a partner in the other table: an error, nothing, or a row with empty cells for "
+            "the other")}};
 
 Rows table_given(const Call& call, int k, const char* name) {
   const Argument value = call.argument(k);
@@ -86,7 +83,7 @@ Rows table_given(const Call& call, int k, const char* name) {
 }
 
 Values join_tables(Call& call) {
-  const Join join = call.options(join_block(), 2);
+  const Join join = call.options(join_block, 2);
   return {object(joined(*table_of_self(call), table_given(call, 1, "other"), join))};
 }
 
@@ -126,7 +123,7 @@ std::vector<Function> table_methods() {
        .sentence = "Joins each row to the rows of another table or notebook with equal values in the "
                    "columns `by`: for example, measured numbers to computed ones.",
        .parameters = {{"other", "Table|Notebook", "the other table"}},
-       .options = &join_block(),
+       .options = &join_block,
        .returns = "Table",
        .example = "print(book:joined(lab.table.from{ { N=1, measured=0.42 } }, { by=\"N\", unmatched=\"leave "
                   "out\" }))",
@@ -185,37 +182,31 @@ struct FromKeys {
   std::vector<std::string> columns;
 };
 
-const Block<FromKeys>& from_block() {
-  static const Block<FromKeys> block{
-      {texts_key("columns", "string[]", "the names of columns in the order in which they stand",
-                 &FromKeys::columns)
-           .defaults_to("in the order of their names, as rows bring them")}};
-  return block;
-}
+const Block<FromKeys> from_block{
+    {texts_key("columns", "string[]", "the names of columns in the order in which they stand",
+               &FromKeys::columns)
+         .defaults_to("in the order of their names, as rows bring them")}};
 
 struct ReadKeys : TableForm {};
 
-const Block<ReadKeys>& read_table_block() {
-  static const Block<ReadKeys> block = [] {
-    std::vector<Option<ReadKeys>> keys(table_form_keys().begin(), table_form_keys().end());
-    keys.push_back(texts_key("text", "string|string[]",
-                             "columns that hold texts, whatever their cells look like", &TableForm::texts));
-    keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
-                          "origin of dates and times of day, in seconds: the first one of the column, or "
-                          "the beginning of 1970"));
-    keys.push_back(choice("steps_back", &TableForm::steps_back,
-                          {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
-                          "meaning of times that step back: a new day if times of day fall by more than half "
-                          "a day, or an hour if dates without a zone fall by about an hour")
-                       .defaults_to("nothing"));
-    return Block<ReadKeys>(std::move(keys));
-  }();
-  return block;
-}
+const Block<ReadKeys> read_table_block = [] {
+  std::vector<Option<ReadKeys>> keys(table_form_keys().begin(), table_form_keys().end());
+  keys.push_back(texts_key("text", "string|string[]",
+                           "columns that hold texts, whatever their cells look like", &TableForm::texts));
+  keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
+                        "origin of dates and times of day, in seconds: the first one of the column, or "
+                        "the beginning of 1970"));
+  keys.push_back(choice("steps_back", &TableForm::steps_back,
+                        {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
+                        "meaning of times that step back: a new day if times of day fall by more than half "
+                        "a day, or an hour if dates without a zone fall by about an hour")
+                     .defaults_to("nothing"));
+  return Block<ReadKeys>(std::move(keys));
+}();
 
 Values read_table_file(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
-  const TableForm form = call.options(read_table_block(), 2);
+  const TableForm form = call.options(read_table_block, 2);
   Monitor& monitor = call.session().monitor();
   const SourceFile file(path, monitor);
   note_input(call, path);
@@ -230,7 +221,7 @@ Values table_from(Call& call) {
   if (!rows.is_table())
     throw Error(ErrorCode::bad_value, "`rows` is " + rows.describe(),
                 "give a list of rows, as in lab.table.from{ { N=1, mu=0.4 } }");
-  const FromKeys keys = call.options(from_block(), 2);
+  const FromKeys keys = call.options(from_block, 2);
   Rows table;
   table.rename("the table");
   for (const std::string& column : keys.columns) {
@@ -261,7 +252,7 @@ Module table_module() {
            "numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local "
            "forms; columns of words are texts. An ambiguous value is an error with the key to give.",
        .parameters = {{"path", "string", "the file"}},
-       .options = optional(read_table_block()),
+       .options = optional(read_table_block),
        .returns = "Table",
        .example = "local t = lab.table.read(\"mu.csv\", { unit={ force=\"N\" } })",
        .heavy = true},
@@ -270,7 +261,7 @@ Module table_module() {
        .sentence = "A table of rows that a script has. A column may carry its unit in its name, and a cell "
                    "may be a quantity.",
        .parameters = {{"rows", "table[]", "rows, each a table of columns and their values"}},
-       .options = optional(from_block()),
+       .options = optional(from_block),
        .returns = "Table",
        .example =
            "print(lab.table.from({ { N=1, mu=0.42 }, { N=2, mu=0.44 } }, { columns={ \"N\", \"mu\" } }))"},

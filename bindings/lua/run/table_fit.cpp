@@ -68,29 +68,25 @@ void check_fit(FitKeys& keys, Problems& problems) {
   keys.options.relative_u = keys.weights.has_value();
 }
 
-const Block<FitKeys>& fit_block() {
-  using K = FitKeys;
-  static const Block<K> block{
-      {text("x", &CalibrationKeys::x, "the column along").required(),
-       text("y", &CalibrationKeys::y, "the column that is fitted").required(),
-       custom<K>(
-           "model", "\"linear\"|\"power\"|function",
-           "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
-           "returns y from the table q of parameters and the columns of a row, all in SI. Where the curve "
-           "is drawn, row has x only",
-           read_model)
-           .required(),
-       custom<K>("start", "table", "for a function: its parameters by name, with values to begin from",
-                 read_start),
-       u_option(), scatter_option(), specimen_option(), basis_option(),
-       text("weights", &CalibrationKeys::weights,
-            "a column of relative weights, with intervals that rest on the residuals; `u` instead where the "
-            "uncertainty of y is known"),
-       where_key(&CalibrationKeys::where), confidence_option(), profile_option(),
-       text("name", &K::name, "its name in charts")},
-      check_fit};
-  return block;
-}
+const Block<FitKeys> fit_block{
+    {text("x", &CalibrationKeys::x, "the column along").required(),
+     text("y", &CalibrationKeys::y, "the column that is fitted").required(),
+     custom<FitKeys>(
+         "model", "\"linear\"|\"power\"|function",
+         "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
+         "returns y from the table q of parameters and the columns of a row, all in SI. Where the curve "
+         "is drawn, row has x only",
+         read_model)
+         .required(),
+     custom<FitKeys>("start", "table", "for a function: its parameters by name, with values to begin from",
+                     read_start),
+     u_option(), scatter_option(), specimen_option(), basis_option(),
+     text("weights", &CalibrationKeys::weights,
+          "a column of relative weights, with intervals that rest on the residuals; `u` instead where the "
+          "uncertainty of y is known"),
+     where_key(&CalibrationKeys::where), confidence_option(), profile_option(),
+     text("name", &FitKeys::name, "its name in charts")},
+    check_fit};
 
 // model(q, row): row from the columns of the table, or x alone.
 class ScriptModel {
@@ -166,7 +162,7 @@ void show_line_in_units(CalibrationReport& report, const FitKeys& keys) {
 }
 
 Values fit_of_columns(Call& call) {
-  const FitKeys keys = call.options(fit_block());
+  const FitKeys keys = call.options(fit_block);
   CalibrationInput input = calibration_input(*table_of_self(call), keys);
   CurveFit fit = fit_of(call, keys, input);
   CalibrationReport report = calibration_report(call, keys, std::move(input), std::move(fit.found));
@@ -194,7 +190,7 @@ Function fit_method() {
           "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals "
           "and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` "
           "draws it with its band. Undetermined parameters are an error with their names.",
-      .options = &fit_block(),
+      .options = &fit_block,
       .returns = "Calibration",
       .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
       .unknown_when_dry = true};

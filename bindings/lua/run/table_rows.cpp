@@ -44,16 +44,13 @@ struct SortKeys {
   bool descending = false;
 };
 
-const Block<SortKeys>& sort_block() {
-  using K = SortKeys;
-  static const Block<K> block{
-      {texts_key("by", "string|string[]", "the column, or columns, the first one first", &K::by).required(),
-       flag("descending", &K::descending, "largest first")}};
-  return block;
-}
+const Block<SortKeys> sort_block{
+    {texts_key("by", "string|string[]", "the column, or columns, the first one first", &SortKeys::by)
+         .required(),
+     flag("descending", &SortKeys::descending, "largest first")}};
 
 Values sort_rows(Call& call) {
-  const SortKeys keys = call.options(sort_block());
+  const SortKeys keys = call.options(sort_block);
   const auto table = table_of_self(call);
   std::vector<std::size_t> columns, order(table->rows());
   for (const std::string& name : keys.by) columns.push_back(table->column(name, "by"));
@@ -188,29 +185,25 @@ Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Exp
       });
 }
 
-const Block<Expectation>& expect_block() {
-  using E = Expectation;
-  static const Block<E> block{
-      {where_key(&E::where),
-       bound_key(
-           "near", &E::near,
-           "the value wanted, with `within` or `rel`: a quantity such as \"10 MPa\", or a number in SI or "
-           "in the unit of the column's name"),
-       bound_key("within", &E::within, "greatest distance from `near`"),
-       number("rel", &E::relative, at_least(0), "greatest distance from `near`, relative to it"),
-       bound_key("at_least", &E::at_least, "lowest value accepted"),
-       bound_key("at_most", &E::at_most, "highest value accepted"),
-       text("increasing_in", &E::increasing_in,
-            "a column with which the value must rise; rows that share it are averaged"),
-       text("decreasing_in", &E::decreasing_in,
-            "a column with which the value must fall; rows that share it are averaged"),
-       flag("should_fail", &E::should_fail, "a negative control: the expectation must not hold"),
-       text("label", &E::label, "shown with the verdict")}};
-  return block;
-}
+const Block<Expectation> expect_block{
+    {where_key(&Expectation::where),
+     bound_key(
+         "near", &Expectation::near,
+         "the value wanted, with `within` or `rel`: a quantity such as \"10 MPa\", or a number in SI or "
+         "in the unit of the column's name"),
+     bound_key("within", &Expectation::within, "greatest distance from `near`"),
+     number("rel", &Expectation::relative, at_least(0), "greatest distance from `near`, relative to it"),
+     bound_key("at_least", &Expectation::at_least, "lowest value accepted"),
+     bound_key("at_most", &Expectation::at_most, "highest value accepted"),
+     text("increasing_in", &Expectation::increasing_in,
+          "a column with which the value must rise; rows that share it are averaged"),
+     text("decreasing_in", &Expectation::decreasing_in,
+          "a column with which the value must fall; rows that share it are averaged"),
+     flag("should_fail", &Expectation::should_fail, "a negative control: the expectation must not hold"),
+     text("label", &Expectation::label, "shown with the verdict")}};
 
 Values expect(Call& call) {
-  Expectation expectation = call.options(expect_block(), 2);
+  Expectation expectation = call.options(expect_block, 2);
   expectation.column = call.text(1, "column");
   RunDirectory& run =
       run_of(call, "states no expectations", "return its results, and expect it after the loop");
@@ -237,7 +230,7 @@ std::vector<Function> row_methods() {
       {.name = "sorted",
        .body = sort_rows,
        .sentence = "The rows in ascending order of a column. Equal rows keep their order.",
-       .options = &sort_block(),
+       .options = &sort_block,
        .returns = "Table",
        .example = "print(book:sorted{ by=\"mu\", descending=true })",
        .unknown_when_dry = true},
@@ -284,7 +277,7 @@ std::vector<Function> row_methods() {
        .sentence = "States an expectation of a column; returns whether it holds. A failed expectation "
                    "makes the run exit 1 after everything is recorded.",
        .parameters = {{"column", "string", "the column; a unit in its name holds for the numbers given"}},
-       .options = &expect_block(),
+       .options = &expect_block,
        .returns = "boolean",
        .example = "book:expect(\"mu\", { where={N=1}, near=0.4, within=0.05 })",
        .heavy = true},

@@ -39,63 +39,59 @@ constexpr struct {
 
 }  // namespace
 
-const Block<PressKeys>& press_block() {
-  static const Block<PressKeys> block = [] {
-    std::vector<Option<PressKeys>> options;
-    for (const auto& entry : press_keys) {
-      auto option = custom<PressKeys>(
-          entry.key, entry.type(), entry.sentence,
-          [entry](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
-            ++keys.given;
-            const auto v = detail::read_quantity(value, info, entry.range, problems);
-            if (!v) return;
-            keys.by = entry.by;
-            keys.value = *v;
-          });
-      option.info.dimension = entry.dimension;
-      option.info.range_text = entry.range.text(entry.dimension);
-      option.show = [entry](const PressKeys& keys) {
-        return keys.given == 1 && keys.by == entry.by ? format_exact(keys.value) : std::string();
-      };
-      options.push_back(std::move(option));
-    }
-    options.push_back(quantity("dwell", &PressRequest::dwell, dimension::time, at_least(0),
-                               "duration of the load; for creep alone"));
-    // Dimension of the controlled quantity, which precedes `preload` in the block.
-    auto preload = custom<PressKeys>(
-        "preload", "number|string|(number|string)[]",
-        "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
-        "there; or a list of values gone to in turn",
-        [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
-          OptionInfo same = info;
-          for (const auto& entry : press_keys)
-            if (entry.by == keys.by) same.dimension = entry.dimension;
-          const auto read_one = [&](const Argument& one) {
-            if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
-          };
-          if (!value.is_table()) return read_one(value);
-          value.elements(read_one);
+const Block<PressKeys> press_block = [] {
+  std::vector<Option<PressKeys>> options;
+  for (const auto& entry : press_keys) {
+    auto option = custom<PressKeys>(
+        entry.key, entry.type(), entry.sentence,
+        [entry](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+          ++keys.given;
+          const auto v = detail::read_quantity(value, info, entry.range, problems);
+          if (!v) return;
+          keys.by = entry.by;
+          keys.value = *v;
         });
-    preload.show = [](const PressKeys& keys) {
-      std::vector<std::string> turns;
-      for (const double turn : keys.preload) turns.push_back(format_exact(turn));
-      return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
+    option.info.dimension = entry.dimension;
+    option.info.range_text = entry.range.text(entry.dimension);
+    option.show = [entry](const PressKeys& keys) {
+      return keys.given == 1 && keys.by == entry.by ? format_exact(keys.value) : std::string();
     };
-    options.push_back(std::move(preload));
-    return Block<PressKeys>(std::move(options), [](PressKeys& keys, Problems& problems) {
-      if (keys.given != 1)
-        problems.push_back(
-            "give exactly one of `pressure`, `load`, `approach`, `indentation` and `flatten`; " +
-            std::to_string(keys.given) + " are given");
-    });
-  }();
-  return block;
-}
+    options.push_back(std::move(option));
+  }
+  options.push_back(quantity("dwell", &PressRequest::dwell, dimension::time, at_least(0),
+                             "duration of the load; for creep alone"));
+  // Dimension of the controlled quantity, which precedes `preload` in the block.
+  auto preload = custom<PressKeys>(
+      "preload", "number|string|(number|string)[]",
+      "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
+      "there; or a list of values gone to in turn",
+      [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+        OptionInfo same = info;
+        for (const auto& entry : press_keys)
+          if (entry.by == keys.by) same.dimension = entry.dimension;
+        const auto read_one = [&](const Argument& one) {
+          if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
+        };
+        if (!value.is_table()) return read_one(value);
+        value.elements(read_one);
+      });
+  preload.show = [](const PressKeys& keys) {
+    std::vector<std::string> turns;
+    for (const double turn : keys.preload) turns.push_back(format_exact(turn));
+    return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
+  };
+  options.push_back(std::move(preload));
+  return Block<PressKeys>(std::move(options), [](PressKeys& keys, Problems& problems) {
+    if (keys.given != 1)
+      problems.push_back("give exactly one of `pressure`, `load`, `approach`, `indentation` and `flatten`; " +
+                         std::to_string(keys.given) + " are given");
+  });
+}();
 
 namespace {
 
 Values press(Call& call) {
-  const PressKeys request = call.options(press_block());
+  const PressKeys request = call.options(press_block);
   return {object(call.self<SpecimenPair>().press(request, call.session().monitor()))};
 }
 
@@ -166,7 +162,7 @@ std::vector<PressRequest> requests_of(const Call& call, const Function& function
   };
   if (known) table.each(look);
   if (!known) return {};
-  if (function.options == &press_block()) return {press_block().read(table, call.function_name())};
+  if (function.options == &press_block) return {press_block.read(table, call.function_name())};
   if (function.options == &sweep_block) return sweep_block.read(table, call.function_name()).requests;
   return {};
 }
@@ -174,23 +170,16 @@ std::vector<PressRequest> requests_of(const Call& call, const Function& function
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
                   const PressRequest& request, const asperity::State& state) {
   const Object self{&class_of<SpecimenPair>(), pair, false};
-  record_call(session, "contact:press", &self, press_block().resolved({request, 1}),
+  record_call(session, "contact:press", &self, press_block.resolved({request, 1}),
               {object(asperity::State(state))});
 }
 
-const Block<PlaceKeys>& place_block() {
-  static const Block<PlaceKeys> block{
-      {integer("seed", &PlaceKeys::seed, at_least(0), "of the turn and the shift that are drawn")
-           .required()}};
-  return block;
-}
+const Block<PlaceKeys> place_block{
+    {integer("seed", &PlaceKeys::seed, at_least(0), "of the turn and the shift that are drawn").required()}};
 
-const Block<ShiftKeys>& shift_block() {
-  static const Block<ShiftKeys> block{
-      {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
-       quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
-  return block;
-}
+const Block<ShiftKeys> shift_block{
+    {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
+     quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
 
 namespace {
 
@@ -200,7 +189,7 @@ void warn_of_flat(const Call& call, const char* done) {
 }
 
 Values place(Call& call) {
-  call.self<SpecimenPair>().place(call.options(place_block()).seed);
+  call.self<SpecimenPair>().place(call.options(place_block).seed);
   warn_of_flat(call, "placing");
   return {};
 }
@@ -212,7 +201,7 @@ Values rotate(Call& call) {
 }
 
 Values shift(Call& call) {
-  const ShiftKeys keys = call.options(shift_block());
+  const ShiftKeys keys = call.options(shift_block);
   call.self<SpecimenPair>().shift(keys.x, keys.y);
   return {};
 }
@@ -267,7 +256,7 @@ Class make_class<SpecimenPair>() {
       {.name = "press",
        .body = press,
        .sentence = "The state under a load, given in one of five ways.",
-       .options = &press_block(),
+       .options = &press_block,
        .returns = "State",
        .example = "local st = c:press{ pressure=\"10 MPa\" }",
        .heavy = true},
@@ -292,7 +281,7 @@ Class make_class<SpecimenPair>() {
        .sentence =
            "Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a periodic "
            "tile, shifted by whole cells, as drawn from the seed; heights are never resampled.",
-       .options = &place_block(),
+       .options = &place_block,
        .example = "c:place{ seed=2 }"},
       {.name = "rotate",
        .body = rotate,
@@ -304,7 +293,7 @@ Class make_class<SpecimenPair>() {
       {.name = "shift",
        .body = shift,
        .sentence = "Shifts the upper body by whole cells on a periodic tile.",
-       .options = &shift_block(),
+       .options = &shift_block,
        .example = "c:shift{ x=\"10 um\" }"},
       {.name = "log",
        .body = log,
@@ -325,7 +314,7 @@ Class make_class<SpecimenPair>() {
        .example = "local before = c:copy()"},
       {.name = "explain",
        .body = method([](const SpecimenPair& pair, Call& call) {
-         return call.given(1) ? pair.plan_of(call.options(press_block())) : pair.plan();
+         return call.given(1) ? pair.plan_of(call.options(press_block)) : pair.plan();
        }),
        .sentence =
            "Plan of a press: the computed terms, the terms that are off, and the expected transforms, "
@@ -333,7 +322,7 @@ Class make_class<SpecimenPair>() {
            "transforms: exactly on up to 128 x 128 cells, within a factor of two in nine presses of ten on "
            "more, from a trial on about 128 x 128. Without keys, they are a rough guess for a press by "
            "pressure. Presses nothing.",
-       .options = optional(press_block()),
+       .options = optional(press_block),
        .returns = "Plan",
        .example = "print(c:explain{ approach=\"20 nm\" })"},
       {.name = "lower",

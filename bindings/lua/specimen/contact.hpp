@@ -23,7 +23,7 @@ Class make_class<SpecimenPair>();
 struct PressKeys : PressRequest {
   int given = 0;  // given controls; exactly one
 };
-const Block<PressKeys>& press_block();
+extern const Block<PressKeys> press_block;
 // The presses of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws as the
 // call.
 std::vector<PressRequest> requests_of(const Call& call, const Function& function);
@@ -33,11 +33,11 @@ void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& p
 struct PlaceKeys {
   std::uint64_t seed = 1;
 };
-const Block<PlaceKeys>& place_block();
+extern const Block<PlaceKeys> place_block;
 struct ShiftKeys {
   double x = 0, y = 0;
 };
-const Block<ShiftKeys>& shift_block();
+extern const Block<ShiftKeys> shift_block;
 
 Function contact_function();
 

@@ -188,15 +188,12 @@ Value recording(const Protocol& of) {
 struct ChartKeys {
   std::string title;
 };
-const Block<ChartKeys>& chart_block() {
-  static const Block<ChartKeys> block{{text("title", &ChartKeys::title, "above the chart")}};
-  return block;
-}
+const Block<ChartKeys> chart_block{{text("title", &ChartKeys::title, "above the chart")}};
 
 Values chart_protocol(Call& call) {
   const std::string file = call.text(1, "path");
   picture_format(file);
-  const LineChart lines = protocol_chart(call.self<Protocol>(), call.options(chart_block(), 2).title);
+  const LineChart lines = protocol_chart(call.self<Protocol>(), call.options(chart_block, 2).title);
   const std::string path = writable_path(call, file);
   for (const std::string& warning : draw(lines, path)) call.session().monitor().warn(warning);
   if (const auto& run = call.session().run)
@@ -208,14 +205,11 @@ Values chart_protocol(Call& call) {
 struct RepeatedKeys {
   std::int64_t repeats = 1;
 };
-const Block<RepeatedKeys>& repeated_block() {
-  static const Block<RepeatedKeys> block{
-      {integer("repeats", &RepeatedKeys::repeats, at_least(1), "number of repeats of the protocol")
-           .required()}};
-  return block;
-}
+const Block<RepeatedKeys> repeated_block{
+    {integer("repeats", &RepeatedKeys::repeats, at_least(1), "number of repeats of the protocol")
+         .required()}};
 Values repeated(Call& call) {
-  return {object(call.self<Protocol>().repeated(call.options(repeated_block()).repeats))};
+  return {object(call.self<Protocol>().repeated(call.options(repeated_block).repeats))};
 }
 Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<Protocol>(1, "next")))}; }
 
@@ -277,7 +271,7 @@ Class make_class<Protocol>() {
       {.name = "repeated",
        .body = repeated,
        .sentence = "The same events several times over, without recorded times.",
-       .options = &repeated_block(),
+       .options = &repeated_block,
        .returns = "Protocol",
        .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
                   "rotate=\"90 deg\" } }:repeated{ repeats=8 }"},
@@ -294,7 +288,7 @@ Class make_class<Protocol>() {
                    "Without recorded times the axis is the sum of dwells, or the event. Returns the "
                    "file.",
        .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
-       .options = optional(chart_block()),
+       .options = optional(chart_block),
        .returns = "string",
        .example = "protocol:chart \"protocol.svg\"",
        .heavy = true},

@@ -21,11 +21,11 @@ const std::vector<OptionInfo>& infos() {
       info.inner = inner;
       list.push_back(std::move(info));
     };
-    add("press", "table", "puts a load on, as c:press does", &press_block());
+    add("press", "table", "puts a load on, as c:press does", &press_block);
     add("release", "boolean", "true: takes it off", nullptr);
-    add("place", "table", "lifts the upper body and puts it down afresh, as c:place does", &place_block());
+    add("place", "table", "lifts the upper body and puts it down afresh, as c:place does", &place_block);
     add("rotate", "an angle", "turns the upper body by an angle, as c:rotate does", nullptr);
-    add("shift", "table", "shifts the upper body, as c:shift does", &shift_block());
+    add("shift", "table", "shifts the upper body, as c:shift does", &shift_block);
     list[3].dimension = dimension::angle;
     return list;
   }();
@@ -151,12 +151,11 @@ class EventReader {
 
   void read_step(const std::string& name, const Argument& value) {
     if (name == "press") {
-      read_table(press_block(), name, value, [](const PressKeys& keys) { return PressRequest(keys); });
+      read_table(press_block, name, value, [](const PressKeys& keys) { return PressRequest(keys); });
     } else if (name == "place") {
-      read_table(place_block(), name, value,
-                 [](const PlaceKeys& keys) { return Protocol::Place{keys.seed}; });
+      read_table(place_block, name, value, [](const PlaceKeys& keys) { return Protocol::Place{keys.seed}; });
     } else if (name == "shift") {
-      read_table(shift_block(), name, value, [](const ShiftKeys& keys) {
+      read_table(shift_block, name, value, [](const ShiftKeys& keys) {
         return Protocol::Shift{keys.x, keys.y};
       });
     } else if (name == "rotate") {

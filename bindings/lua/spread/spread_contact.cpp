@@ -80,53 +80,53 @@ void spread_read_effects(const Argument& value, const OptionInfo& info, spread_S
     problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\"");
 }
 
-const Block<spread_SceneKeys>& spread_scene_block() {
-  using K = spread_SceneKeys;
-  static const Block<K> block{
-      {custom<K>("lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (const SlabSurface* surface = value.as<SlabSurface>())
-                     keys.lower = *surface;
-                   else if (const Object* other = value.as_any_object();
-                            other != nullptr && other->type == &class_of<Surface>())
-                     problems.push_back(
-                         "`lower` is a surface that every rank holds; make it with lab.spread, or press it "
-                         "with lab.contact");
-                   else if (!value.is_unknown())
-                     detail::wrong_type(value, info, "a surface from lab.spread", problems);
-                 })
-           .required(),
-       custom<K>("upper", "Material", "a flat of a material, or lab.rigid",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (const Material* material = value.as<Material>())
-                     keys.upper = *material;
-                   else if (!value.is_unknown())
-                     detail::wrong_type(
-                         value, info, "a material or lab.rigid; over ranks the upper body is flat", problems);
-                 })
-           .required(),
-       custom<K>("boundary", "\"periodic\"", "the tile goes on beyond its rim",
-                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-                   if (value.is_text() && value.text() == "free")
-                     problems.push_back(
-                         "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or "
-                         "use lab.contact");
-                   else if (!value.is_text() || value.text() != "periodic")
-                     detail::wrong_type(value, info, "\"periodic\"", problems);
-                 })
-           .required(),
-       custom<K>("effects", "table",
-                 "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
-                 "is limited",
-                 spread_read_effects)
-           .required(),
-       table_of("accuracy", &K::accuracy, spread_accuracy_block,
-                "required accuracy of a solve, and the action on failure")}};
-  return block;
-}
+const Block<spread_SceneKeys> spread_scene_block{
+    {custom<spread_SceneKeys>(
+         "lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
+         [](const Argument& value, const OptionInfo& info, spread_SceneKeys& keys, Problems& problems) {
+           if (const SlabSurface* surface = value.as<SlabSurface>())
+             keys.lower = *surface;
+           else if (const Object* other = value.as_any_object();
+                    other != nullptr && other->type == &class_of<Surface>())
+             problems.push_back(
+                 "`lower` is a surface that every rank holds; make it with lab.spread, or press it "
+                 "with lab.contact");
+           else if (!value.is_unknown())
+             detail::wrong_type(value, info, "a surface from lab.spread", problems);
+         })
+         .required(),
+     custom<spread_SceneKeys>(
+         "upper", "Material", "a flat of a material, or lab.rigid",
+         [](const Argument& value, const OptionInfo& info, spread_SceneKeys& keys, Problems& problems) {
+           if (const Material* material = value.as<Material>())
+             keys.upper = *material;
+           else if (!value.is_unknown())
+             detail::wrong_type(value, info, "a material or lab.rigid; over ranks the upper body is flat",
+                                problems);
+         })
+         .required(),
+     custom<spread_SceneKeys>(
+         "boundary", "\"periodic\"", "the tile goes on beyond its rim",
+         [](const Argument& value, const OptionInfo& info, spread_SceneKeys&, Problems& problems) {
+           if (value.is_text() && value.text() == "free")
+             problems.push_back(
+                 "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or "
+                 "use lab.contact");
+           else if (!value.is_text() || value.text() != "periodic")
+             detail::wrong_type(value, info, "\"periodic\"", problems);
+         })
+         .required(),
+     custom<spread_SceneKeys>(
+         "effects", "table",
+         "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
+         "is limited",
+         spread_read_effects)
+         .required(),
+     table_of("accuracy", &spread_SceneKeys::accuracy, spread_accuracy_block,
+              "required accuracy of a solve, and the action on failure")}};
 
 Values spread_make_contact(Call& call) {
-  const spread_SceneKeys keys = call.options(spread_scene_block());
+  const spread_SceneKeys keys = call.options(spread_scene_block);
   const SlabTerms terms = slab_terms(keys.lower->material, *keys.upper, keys.effects);
   SpreadContact contact;
   contact.problem.surface = *keys.lower;
@@ -228,7 +228,7 @@ Function spread_contact_function() {
           .sentence =
               "A periodic half-space contact over the ranks, under a flat: the problem, the certificates and "
               "the units of lab.contact. Nothing stays on the surface after a press.",
-          .options = &spread_scene_block(),
+          .options = &spread_scene_block,
           .returns = "SpreadContact",
           .example =
               "local c = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary=\"periodic\", effects={ "
