@@ -190,8 +190,6 @@ class Completer {
     return n == function->parameters.size() ? Role{nullptr, nullptr, function, {}} : Role{};
   }
 
-  // --- candidates
-
   void members(const ScriptType& of, bool methods_only) {
     if (const auto* held = of.as<const Module*>()) {
       const Module& module = **held;
@@ -206,12 +204,10 @@ class Completer {
       for (const Function& method : (*type)->methods) add(of_function(method));
     } else if (const auto* record = of.as<const RecordInfo*>()) {
       if (!methods_only) fields((*record)->fields);
-    } else if (const auto* list = of.as<ScriptType::List>(); list != nullptr && list->fields != nullptr) {
-      if (!methods_only)
-        for (const auto& [name, field] : *list->fields) add({name, "value", type_text(field), ""});
     } else if (const auto* table = of.as<ScriptType::Table>()) {
-      for (const auto& [name, field] : *table->fields)
-        if (!methods_only) add({name, kind_of(field), type_text(field), ""});
+      if (!methods_only && table->fields != nullptr)
+        for (const auto& [name, field] : *table->fields)
+          add({name, table->element != nullptr ? "value" : kind_of(field), type_text(field), ""});
     } else if (const auto* library = of.as<ScriptType::Library>()) {
       if (!methods_only) of_library(library->path);
     } else if (of.as<ScriptType::Text>() != nullptr && methods_only) {
