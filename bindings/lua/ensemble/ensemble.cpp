@@ -88,11 +88,6 @@ CaseValue read_value(EnsembleKeys& keys, std::string_view key, const Argument& v
   return read;
 }
 
-template <class T>
-bool by_key(const T& a, const T& b) {
-  return a.key < b.key;
-}
-
 void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table of lists, such as { seed = {1, 2, 3} }", problems);
@@ -112,19 +107,12 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
                          value_text(list) + "}");
       return;
     }
-    const std::int64_t length = list.is_table() ? list.length() : 0;
-    std::int64_t entries = 0, others = 0;
-    if (list.is_table())
-      list.each([&](const Argument& place, const Argument&) {
-        const auto k = place.is_number() ? place.integer() : std::nullopt;
-        ++(k && *k >= 1 && *k <= length ? entries : others);
-      });
-    if (entries != length || others > 0) {
+    if (list.is_table() && !list.is_list()) {
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
       return;
     }
-    for (std::int64_t k = 1; k <= length; ++k)
-      list.element(k, [&](const Argument& item) {
+    if (list.is_table())
+      list.elements([&](const Argument& item, std::int64_t k) {
         values.push_back(read_value(keys, name, item, path + "[" + std::to_string(k) + "]"));
       });
     const std::string plain = values.empty() ? name : values.front().key;
@@ -132,7 +120,7 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
   });
   if (problems.empty() && keys.over->empty())
     problems.push_back(quoted(info.name) + " names nothing to vary; give at least one list");
-  std::sort(keys.over->begin(), keys.over->end(), by_key<EnsembleKeys::Varied>);
+  std::ranges::sort(*keys.over, {}, &EnsembleKeys::Varied::key);
   const auto twice = std::ranges::adjacent_find(*keys.over, {}, &EnsembleKeys::Varied::key);
   if (twice != keys.over->end())
     problems.push_back(quoted(info.name) + " names " + quoted(twice->key) + " twice; give one list");
@@ -155,7 +143,7 @@ void read_cases(const Argument& value, const OptionInfo& info, EnsembleKeys& key
       else
         problems.push_back(quoted(path) + " holds a value without a key; write `name = value`");
     });
-    std::sort(values.begin(), values.end(), by_key<CaseValue>);
+    std::ranges::sort(values, {}, &CaseValue::key);
     keys.cases->push_back(std::move(values));
   });
 }
@@ -311,7 +299,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
       else if (value.is_text())
         row.push_back({std::string(key.text()), std::string(value.text())});
     });
-    std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    std::ranges::sort(row, {}, &Entry::column);
     if (row.empty()) continue;
     book->write(row);
     any = true;

@@ -65,6 +65,15 @@ Object* Argument::as_object(const Class& type) const {
   return object != nullptr && object->type == &type ? object : nullptr;
 }
 
+bool Argument::is_list() const {
+  std::int64_t entries = 0, others = 0;
+  each([&](const Argument& key, const Argument&) {
+    const auto k = key.is_number() ? key.integer() : std::nullopt;
+    ++(k && *k >= 1 && *k <= length() ? entries : others);
+  });
+  return others == 0 && entries == length();
+}
+
 std::string Argument::describe() const {
   switch (lua_type(L, index_)) {
     case LUA_TNONE:
@@ -80,10 +89,8 @@ std::string Argument::describe() const {
       return "the string \"" + shown + "\"";
     }
     case LUA_TTABLE: {
-      std::int64_t values = 0;
-      each([&](const Argument&, const Argument&) { ++values; });
-      if (values == 0) return "an empty table";
-      return values == length() ? "a list of " + std::to_string(values) : "a table";
+      if (!is_list()) return "a table";
+      return length() == 0 ? "an empty table" : "a list of " + std::to_string(length());
     }
     case LUA_TFUNCTION:
       return "a function";
@@ -99,32 +106,33 @@ std::string Argument::describe() const {
 
 double Callback::operator()(std::initializer_list<double> arguments, std::string_view key) const {
   const Argument::StackGuard guard(function_.state());
-  lua_pushvalue(function_.state(), function_.index());
-  for (const double argument : arguments) lua_pushnumber(function_.state(), argument);
-  return finish(static_cast<int>(arguments.size()), key);
+  return number_of(called(arguments, key), key);
 }
 
 double Callback::operator()(std::initializer_list<std::int64_t> arguments, std::string_view key) const {
   const Argument::StackGuard guard(function_.state());
-  lua_pushvalue(function_.state(), function_.index());
-  for (const std::int64_t argument : arguments) lua_pushinteger(function_.state(), argument);
-  return finish(static_cast<int>(arguments.size()), key);
+  return number_of(called(arguments, key), key);
 }
 
 bool Callback::answer(std::initializer_list<double> arguments, std::string_view key) const {
   const Argument::StackGuard guard(function_.state());
-  lua_pushvalue(function_.state(), function_.index());
-  for (const double argument : arguments) lua_pushnumber(function_.state(), argument);
-  const Argument result = called(static_cast<int>(arguments.size()), key);
+  const Argument result = called(arguments, key);
   if (!result.is_boolean())
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
                 "it must return true or false");
   return result.boolean();
 }
 
-Argument Callback::called(int arguments, std::string_view key) const {
+template <class Number>
+Argument Callback::called(std::initializer_list<Number> arguments, std::string_view key) const {
   lua_State* L = function_.state();
-  if (lua_pcall(L, arguments, 1, 0) != LUA_OK) {
+  lua_pushvalue(L, function_.index());
+  for (const Number argument : arguments)
+    if constexpr (std::integral<Number>)
+      lua_pushinteger(L, argument);
+    else
+      lua_pushnumber(L, argument);
+  if (lua_pcall(L, static_cast<int>(arguments.size()), 1, 0) != LUA_OK) {
     stop_flag().check();
     const Argument error(L, -1);
     std::vector<std::string> fields;
@@ -142,8 +150,7 @@ Argument Callback::called(int arguments, std::string_view key) const {
   return Argument(L, -1);
 }
 
-double Callback::finish(int arguments, std::string_view key) const {
-  const Argument result = called(arguments, key);
+double Callback::number_of(const Argument& result, std::string_view key) {
   if (!result.is_number())
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
                 "it must return a number");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "bindings/lua/registry/dry_run.hpp"
@@ -89,7 +88,7 @@ void look_at_columns(const Call& call) {
     if (first.is_table())
       with_key(first, key, [&](const Argument& named) {
         look(named);
-        for (std::int64_t k = 1; named.is_table() && k <= named.length(); ++k) named.element(k, look);
+        if (named.is_table()) named.elements(look);
       });
 }
 

@@ -71,8 +71,7 @@ void read_lines(const Argument& value, const OptionInfo& info, C& c, Problems& p
   if (value.is_boolean()) {
     c.lines = value.boolean();
   } else if (value.is_table() && value.length() > 0) {
-    for (std::int64_t k = 1; k <= value.length(); ++k)
-      value.element(k, [&](const Argument& part) { read_line_across(part, k, c, problems); });
+    value.elements([&](const Argument& part, std::int64_t k) { read_line_across(part, k, c, problems); });
   } else {
     detail::wrong_type(value, info,
                        "true, false, or a list of lines such as { { y=0.4, name=\"measured\" } }", problems);
@@ -89,7 +88,7 @@ void read_fits(const Argument& value, const OptionInfo& info, C& c, Problems& pr
   if (!value.is_table()) return take(value);
   if (value.length() == 0)
     return detail::wrong_type(value, info, "the result of t:fit{...}, or a list of such results", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+  value.elements(take);
 }
 
 // Only names: functions are read when the chart is drawn.

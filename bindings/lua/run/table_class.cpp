@@ -21,8 +21,6 @@ namespace {
 
 using Rows = asperity::Table;
 
-// --- methods that notebooks have too
-
 Values rows_where(Call& call) {
   static const OptionInfo info{
       .name = "where", .type = "table", .default_text = "", .range_text = "", .sentence = ""};
@@ -229,10 +227,9 @@ Values table_from(Call& call) {
     table.declare_column(name);
     if (!unit.empty()) table.declare_unit(name, unit);
   }
-  for (std::int64_t k = 1; k <= rows.length(); ++k)
-    rows.element(k, [&](const Argument& row) {
-      table.append(entries_of(call, row, "write lab.table.from{ { N=1, mu=0.4 } }"));
-    });
+  rows.elements([&](const Argument& row) {
+    table.append(entries_of(call, row, "write lab.table.from{ { N=1, mu=0.4 } }"));
+  });
   if (table.columns().empty())
     throw Error(ErrorCode::bad_value, "`rows` holds no row", "give at least one, as in { { N=1, mu=0.4 } }");
   return {object(table)};

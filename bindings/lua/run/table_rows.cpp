@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "bindings/lua/registry/guard.hpp"
@@ -36,8 +35,6 @@ Values each_row(Call& call) {
                    },
                    call.function_name()}};
 }
-
-// --- sorting, computed columns
 
 struct SortKeys {
   std::vector<std::string> by;
@@ -129,8 +126,6 @@ Values with_columns(Call& call) {
   return {object(std::move(wider))};
 }
 
-// --- one number of a column
-
 enum class Reduction { least, greatest, sum };
 
 template <Reduction reduction>
@@ -143,8 +138,6 @@ Values reduced(Call& call) {
   const auto ends = std::ranges::minmax(values);
   return {reduction == Reduction::least ? ends.min : ends.max};
 }
-
-// --- files and rows
 
 Values write_table(Call& call) {
   const Argument given = call.argument(1);
@@ -172,8 +165,6 @@ Values write_table(Call& call) {
   write_atomically(path, table_of_self(call)->csv());
   return {path};
 }
-
-// --- expectations
 
 // In SI, in the unit of the column's name, or a quantity.
 Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Expectation::*member,

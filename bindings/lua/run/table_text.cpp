@@ -52,18 +52,17 @@ ShownColumns shown_columns(const Argument& given) {
     throw Error(ErrorCode::bad_value, "t:show met " + key.describe() + " = " + value.describe(),
                 "write t:show{ \"Ra [um]\", \"angle [deg]\", digits=3 }");
   };
-  for (std::int64_t k = 1; given.is_table() && k <= given.length(); ++k)
-    given.element(k, [&](const Argument& name) {
-      if (!name.is_text()) refuse(name, name);
-      shown.names.emplace_back(name.text());
-    });
-  if (given.is_table())
-    given.each([&](const Argument& key, const Argument& value) {
-      if (!key.is_text()) return;
-      const std::int64_t digits = value.is_number() ? value.integer().value_or(0) : 0;
-      if (key.text() != "digits" || digits < 1 || digits > 17) refuse(key, value);
-      shown.digits = static_cast<int>(digits);
-    });
+  if (!given.is_table()) return shown;
+  given.elements([&](const Argument& name) {
+    if (!name.is_text()) refuse(name, name);
+    shown.names.emplace_back(name.text());
+  });
+  given.each([&](const Argument& key, const Argument& value) {
+    if (!key.is_text()) return;
+    const std::int64_t digits = value.is_number() ? value.integer().value_or(0) : 0;
+    if (key.text() != "digits" || digits < 1 || digits > 17) refuse(key, value);
+    shown.digits = static_cast<int>(digits);
+  });
   return shown;
 }
 

@@ -108,7 +108,7 @@ std::vector<Entry> entries_of(const Call& call, const Argument& given, const std
     row.push_back(std::move(entry));
   });
   // Lua's key order varies; places of new columns must not.
-  std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  std::ranges::sort(row, {}, &Entry::column);
   return row;
 }
 
@@ -137,13 +137,12 @@ void read_filter(const Argument& value, const OptionInfo& info, TableFilter& fil
                            "; give a number, a string, a boolean, or a list of them");
     };
     if (wanted.is_table())
-      for (std::int64_t k = 1; k <= wanted.length(); ++k) wanted.element(k, take);
+      wanted.elements(take);
     else
       take(wanted);
     conditions.push_back(std::move(condition));
   });
-  std::sort(conditions.begin(), conditions.end(),
-            [](const Condition& a, const Condition& b) { return a.column < b.column; });
+  std::ranges::sort(conditions, {}, &Condition::column);
   filter = TableFilter(std::move(conditions));
 }
 
@@ -183,7 +182,7 @@ void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::
   if (value.is_text()) return take(value);
   if (!value.is_table() || value.length() == 0)
     return detail::wrong_type(value, info, "a column's name or a list of them", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+  value.elements(take);
 }
 
 void read_expected(const Argument& value, const std::string& name, std::optional<ExpectedValue>& expected,

@@ -182,10 +182,7 @@ void read_sweep(const std::string& name, const std::string& path, const Argument
   if (!value.is_table()) {
     take(value, path);
   } else {
-    const std::int64_t length = value.length();
-    std::int64_t entries = 0;
-    value.each([&](const Argument&, const Argument&) { ++entries; });
-    if (entries != length) {
+    if (!value.is_list()) {
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
       return;
     }

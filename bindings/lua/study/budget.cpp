@@ -77,8 +77,8 @@ void read_cells(const Argument& value, const OptionInfo& info, BudgetKeys& keys,
 // Reads { { "a", "b", -0.8 }, … }.
 void read_correlation(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
   std::vector<KnobSweep> rows;
-  for (std::int64_t k = 1; value.is_table() && k <= value.length(); ++k)
-    value.element(k, [&](const Argument& row) {
+  if (value.is_table())
+    value.elements([&](const Argument& row, std::int64_t k) {
       read_sweep("", info.name + "[" + std::to_string(k) + "]", row, keys.given.unknown, rows, problems);
     });
   bool wrong = rows.empty();

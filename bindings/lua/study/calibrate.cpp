@@ -24,8 +24,6 @@ namespace {
 
 using Rows = asperity::Table;
 
-// --- options
-
 struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
   std::vector<CalibrationParameter> parameters;  // by name: Lua has no order
@@ -124,8 +122,8 @@ void read_faces(const Argument& value, const OptionInfo& info, CalibrateKeys& ke
     value.each([&](const Argument& key, const Argument& list) {
       ++count;
       if (key.is_text()) keys.replicate = std::string(key.text());
-      for (std::int64_t k = 1; list.is_table() && k <= list.length(); ++k)
-        list.element(k, [&](const Argument& face) {
+      if (list.is_table())
+        list.elements([&](const Argument& face) {
           if (face.is_number()) keys.faces.push_back(face.number());
         });
     });
@@ -166,8 +164,6 @@ const Block<CalibrateKeys> calibrate_block{
          read_faces),
      u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
      where_key(&CalibrateKeys::where)}};
-
-// --- the model
 
 // The rows are on the stack.
 class CalibratedFunction {
