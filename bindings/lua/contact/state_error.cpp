@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/contact/state_class.hpp"
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/record_type.hpp"

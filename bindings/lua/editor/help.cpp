@@ -293,8 +293,6 @@ std::string keys_help(const std::string& name) {
   return text;
 }
 
-// --- search
-
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
 // Matches beginnings of words.
@@ -387,8 +385,6 @@ std::string question_help(const std::string& asked, const std::vector<Topic>& to
     found += "  " + topics[scores[k].topic].name + ": " + topics[scores[k].topic].sentence + "\n";
   return found.empty() ? "" : "nearest to " + quoted(asked) + " are\n" + found;
 }
-
-// --- the reference page
 
 std::string cell(std::string text) {
   std::string result;

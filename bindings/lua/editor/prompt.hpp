@@ -61,8 +61,6 @@ std::string with_lasting_locals(const std::string& text);
 // Raises a Lua error without memory.
 void push_show(lua_State* L);
 
-// --- values as text (show.cpp)
-
 // "814.7 pm (8.147e-10 m)"
 std::string shown_quantity(double value, Dimension dimension);
 

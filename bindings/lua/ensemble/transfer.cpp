@@ -2,7 +2,6 @@
 #include "bindings/lua/ensemble/transfer.hpp"
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <unordered_map>
 #include <utility>

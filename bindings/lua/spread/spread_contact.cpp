@@ -16,8 +16,6 @@ namespace asperity::lua {
 
 namespace {
 
-// --- the scene
-
 struct spread_SceneKeys {
   std::optional<SlabSurface> lower;
   std::optional<Material> upper;
@@ -137,8 +135,6 @@ Values spread_make_contact(Call& call) {
   contact.plastic = keys.effects.any_that(Effect::Acts::bounds_pressure);
   return {object(std::move(contact))};
 }
-
-// --- pressing
 
 struct SpreadPress {
   std::optional<double> pressure, load, approach, indentation;

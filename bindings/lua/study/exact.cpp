@@ -29,8 +29,6 @@ Option<PressedKeys> approach_key() {
   return quantity("approach", &PressedKeys::approach, dimension::length, above(0), "from first touch");
 }
 
-// --- hertz
-
 struct HertzKeys : PressedKeys {
   double radius = 0, modulus = 0;
   std::shared_ptr<JunctionLaw> law;
@@ -77,8 +75,6 @@ Values hertz(Call& call) {
   return {hertz_type(h)};
 }
 
-// --- waves
-
 struct WaveKeys {
   double amplitude = 0, wavelength = 0, modulus = 0, pressure = 0;
 };
@@ -115,8 +111,6 @@ Values crossed_waves(Call& call) {
   return {std::move(record)};
 }
 
-// --- persson
-
 struct PerssonKeys {
   double modulus = 0, rms_slope = 0, pressure = 0, hardness = std::numeric_limits<double>::infinity();
 };
@@ -138,8 +132,6 @@ Values persson(Call& call) {
   const PerssonKeys k = call.options(persson_block);
   return {persson_type(exact::persson_area(k.modulus, k.rms_slope, k.pressure, k.hardness))};
 }
-
-// --- box elements
 
 struct BoxParaboloidKeys : PressedKeys {
   double radius = 0, stiffness = 0;
@@ -166,8 +158,6 @@ Values box_paraboloid(Call& call) {
       keys.load ? exact::box_paraboloid_under_load(keys.radius, keys.stiffness, *keys.load)
                 : exact::box_paraboloid_at_approach(keys.radius, keys.stiffness, *keys.approach))};
 }
-
-// --- weierstrass_mandelbrot
 
 struct HeightKeys : WeierstrassMandelbrotOptions {
   int i = -1, j = -1;

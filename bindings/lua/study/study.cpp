@@ -3,7 +3,6 @@
 #include "bindings/lua/study/asked_function.hpp"
 
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "bindings/lua/registry/options.hpp"

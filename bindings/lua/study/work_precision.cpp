@@ -15,8 +15,6 @@ namespace asperity::lua {
 
 namespace {
 
-// --- options
-
 struct StudyKeys : StudyRequest {
   std::string name = "work_precision";
   bool unknown = false;  // a dry run met an unknown knob
