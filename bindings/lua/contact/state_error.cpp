@@ -40,6 +40,43 @@ std::string describe_error(const Estimated& of) {
   return text;
 }
 
+const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_error(); }
+
+template <auto end>
+double contacts(const StateBounds& of) {
+  return static_cast<double>(bounds(of).contact_bracket.*end);
+}
+template <auto end>
+std::optional<double> yielded_share(const StateBounds& of) {
+  const AlgebraicError& e = bounds(of);
+  if (!e.yielded_bracket) return {};
+  return static_cast<double>((*e.yielded_bracket).*end) / static_cast<double>(e.nodes);
+}
+
+std::string describe_bounds(const StateBounds& of) {
+  const auto& state = of.state;
+  const AlgebraicError& e = state.algebraic_error();
+  Record record;
+  for (const char* name : {"load", "pressure", "approach", "separation", "mean_gap", "energy",
+                           "peak_pressure", "area_fraction", "plastic_volume", "plastic_fraction"}) {
+    const StateQuantity& quantity = *find_quantity(name);
+    if (const auto bound = quantity.bound(state)) record.add(name, *bound, quantity.dimension);
+  }
+  std::string text = "algebraic error, at most";
+  for (const Record::Entry& entry : record.entries)
+    text += "\n  " + entry.field + std::string(18 - entry.field.size(), ' ') + show(entry);
+  if (!std::isfinite(e.approach)) text += "\n  inf: no bound, as for bodies that attract each other";
+  return text + "\n  nodes in contact  " + std::to_string(e.contact_bracket.low) + " to " +
+         std::to_string(e.contact_bracket.high) + " of " + std::to_string(e.nodes);
+}
+
+std::string describe_errors(const StateError& of) {
+  const auto& state = of.state;
+  const DiscretisationError grid{state};
+  const StateBounds of_state{state};
+  return describe_bounds(of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
+}
+
 }  // namespace
 
 template <>
@@ -109,47 +146,6 @@ const RecordType<ChosenAccuracy> chosen_accuracy_type{
 Value chosen_record(const asperity::State& state) {
   return state.chosen() ? Value(chosen_accuracy_type(*state.chosen())) : Value();
 }
-
-namespace {
-
-const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_error(); }
-
-template <auto end>
-double contacts(const StateBounds& of) {
-  return static_cast<double>(bounds(of).contact_bracket.*end);
-}
-template <auto end>
-std::optional<double> yielded_share(const StateBounds& of) {
-  const AlgebraicError& e = bounds(of);
-  if (!e.yielded_bracket) return {};
-  return static_cast<double>((*e.yielded_bracket).*end) / static_cast<double>(e.nodes);
-}
-
-std::string describe_bounds(const StateBounds& of) {
-  const auto& state = of.state;
-  const AlgebraicError& e = state.algebraic_error();
-  Record record;
-  for (const char* name : {"load", "pressure", "approach", "separation", "mean_gap", "energy",
-                           "peak_pressure", "area_fraction", "plastic_volume", "plastic_fraction"}) {
-    const StateQuantity& quantity = *find_quantity(name);
-    if (const auto bound = quantity.bound(state)) record.add(name, *bound, quantity.dimension);
-  }
-  std::string text = "algebraic error, at most";
-  for (const Record::Entry& entry : record.entries)
-    text += "\n  " + entry.field + std::string(18 - entry.field.size(), ' ') + show(entry);
-  if (!std::isfinite(e.approach)) text += "\n  inf: no bound, as for bodies that attract each other";
-  return text + "\n  nodes in contact  " + std::to_string(e.contact_bracket.low) + " to " +
-         std::to_string(e.contact_bracket.high) + " of " + std::to_string(e.nodes);
-}
-
-std::string describe_errors(const StateError& of) {
-  const auto& state = of.state;
-  const DiscretisationError grid{state};
-  const StateBounds of_state{state};
-  return describe_bounds(of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
-}
-
-}  // namespace
 
 template <>
 Class make_class<StateBounds>() {

@@ -384,14 +384,6 @@ class Completer {
   bool leading_space_ = false;                              // of candidates
 };
 
-}  // namespace
-
-Completion complete(std::string_view text, std::size_t position, const std::vector<LiveGlobal>& live) {
-  return Completer(text, std::min(position, text.size()), live).complete();
-}
-
-namespace {
-
 // Refusals of the sandbox have an upvalue `what`.
 bool is_refused(lua_State* L, int index) {
   if (!is_sandbox_function(L, index)) return false;
@@ -429,6 +421,10 @@ std::vector<LuaName> read_names() {
 }
 
 }  // namespace
+
+Completion complete(std::string_view text, std::size_t position, const std::vector<LiveGlobal>& live) {
+  return Completer(text, std::min(position, text.size()), live).complete();
+}
 
 const std::vector<LuaName>& lua_names() {
   static const std::vector<LuaName> names = read_names();

@@ -122,23 +122,6 @@ class Lexer {
   ScriptTokens tokens_;
 };
 
-}  // namespace
-
-const std::vector<std::string_view>& keywords() {
-  static const std::vector<std::string_view> words = {
-      "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
-      "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
-  return words;
-}
-
-bool is_keyword(std::string_view word) {
-  return std::binary_search(keywords().begin(), keywords().end(), word);
-}
-
-ScriptTokens read_tokens(std::string_view script) { return Lexer(script).read(); }
-
-namespace {
-
 constexpr int deepest_brackets = 40;  // deeper values are unknown
 
 // Empty for words that open nothing.
@@ -229,6 +212,19 @@ ScriptType member(const ScriptType& of, std::string_view name) {
 }
 
 }  // namespace
+
+const std::vector<std::string_view>& keywords() {
+  static const std::vector<std::string_view> words = {
+      "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
+      "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
+  return words;
+}
+
+bool is_keyword(std::string_view word) {
+  return std::binary_search(keywords().begin(), keywords().end(), word);
+}
+
+ScriptTokens read_tokens(std::string_view script) { return Lexer(script).read(); }
 
 ScriptType script_type(std::string_view text) {
   const auto element = [](std::string_view of) {

@@ -190,16 +190,6 @@ void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& co
   warn_of(call, draw(chart, run.path_for(*keys.file)));
 }
 
-}  // namespace
-
-void look_at_histogram(const Call& call) {
-  if (call.argument(1).is_table() && !call.argument(1).is_unknown())
-    throw Error(ErrorCode::bad_value, "histogram takes the column first",
-                "write t:histogram(\"mu\", { bins=2 })");
-}
-
-namespace {
-
 Values histogram_of_column(Call& call) {
   look_at_histogram(call);
   const std::string name = call.text(1, "column");
@@ -221,6 +211,12 @@ Values histogram_of_column(Call& call) {
 }
 
 }  // namespace
+
+void look_at_histogram(const Call& call) {
+  if (call.argument(1).is_table() && !call.argument(1).is_unknown())
+    throw Error(ErrorCode::bad_value, "histogram takes the column first",
+                "write t:histogram(\"mu\", { bins=2 })");
+}
 
 const RecordInfo& histogram_type() { return histogram_record; }
 

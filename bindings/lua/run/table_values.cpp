@@ -22,6 +22,15 @@ bool begins_a_number(std::string_view text) {
   return !text.empty() && text.front() >= '0' && text.front() <= '9';
 }
 
+void read_columns(const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
+  constexpr const char* wanted =
+      "own names with heads of the file, as in { load=\"Kraft\" }, or the heads of a file that has none in a "
+      "list";
+  if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
+  if (value.length() > 0) return read_texts(value, info, form.heads, problems);
+  read_pairs(value, info, form.names, wanted, problems);
+}
+
 }  // namespace
 
 void read_quantity(Entry& entry, const TableColumn& column) {
@@ -157,19 +166,6 @@ void read_pairs(const Argument& value, const OptionInfo& info,
   });
   std::ranges::sort(pairs);
 }
-
-namespace {
-
-void read_columns(const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
-  constexpr const char* wanted =
-      "own names with heads of the file, as in { load=\"Kraft\" }, or the heads of a file that has none in a "
-      "list";
-  if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
-  if (value.length() > 0) return read_texts(value, info, form.heads, problems);
-  read_pairs(value, info, form.names, wanted, problems);
-}
-
-}  // namespace
 
 void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::string>& texts,
                 Problems& problems) {

@@ -105,12 +105,6 @@ std::string line_of(lua_State* L, int index, int depth) {
   return plain ? table_line(L, value.index(), depth) : told(L, value.index());
 }
 
-}  // namespace
-
-std::string shown_line(lua_State* L, int index) { return line_of(L, lua_absindex(L, index), 0); }
-
-namespace {
-
 bool is_plain_table(lua_State* L, int index) {
   if (lua_type(L, index) != LUA_TTABLE) return false;
   if (luaL_getmetafield(L, index, "__tostring") == LUA_TNIL) return true;
@@ -123,6 +117,8 @@ bool write(std::FILE* output, std::string_view text) {
 }
 
 }  // namespace
+
+std::string shown_line(lua_State* L, int index) { return line_of(L, lua_absindex(L, index), 0); }
 
 int print_values(lua_State* L) {
   std::FILE* output = Session::of(L).output;

@@ -37,59 +37,6 @@ constexpr struct {
      between(0, 1)},
 };
 
-}  // namespace
-
-const Block<PressKeys> press_block = [] {
-  std::vector<Option<PressKeys>> options;
-  for (const auto& entry : press_keys) {
-    auto option = custom<PressKeys>(
-        entry.key, entry.type(), entry.sentence,
-        [entry](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
-          ++keys.given;
-          const auto v = detail::read_quantity(value, info, entry.range, problems);
-          if (!v) return;
-          keys.by = entry.by;
-          keys.value = *v;
-        });
-    option.info.dimension = entry.dimension;
-    option.info.range_text = entry.range.text(entry.dimension);
-    option.show = [entry](const PressKeys& keys) {
-      return keys.given == 1 && keys.by == entry.by ? format_exact(keys.value) : std::string();
-    };
-    options.push_back(std::move(option));
-  }
-  options.push_back(quantity("dwell", &PressRequest::dwell, dimension::time, at_least(0),
-                             "duration of the load; for creep alone"));
-  // Dimension of the controlled quantity, which precedes `preload` in the block.
-  auto preload = custom<PressKeys>(
-      "preload", "number|string|(number|string)[]",
-      "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
-      "there; or a list of values gone to in turn",
-      [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
-        OptionInfo same = info;
-        for (const auto& entry : press_keys)
-          if (entry.by == keys.by) same.dimension = entry.dimension;
-        const auto read_one = [&](const Argument& one) {
-          if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
-        };
-        if (!value.is_table()) return read_one(value);
-        value.elements(read_one);
-      });
-  preload.show = [](const PressKeys& keys) {
-    std::vector<std::string> turns;
-    for (const double turn : keys.preload) turns.push_back(format_exact(turn));
-    return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
-  };
-  options.push_back(std::move(preload));
-  return Block<PressKeys>(std::move(options), [](PressKeys& keys, Problems& problems) {
-    if (keys.given != 1)
-      problems.push_back("give exactly one of `pressure`, `load`, `approach`, `indentation` and `flatten`; " +
-                         std::to_string(keys.given) + " are given");
-  });
-}();
-
-namespace {
-
 Values press(Call& call) {
   const PressKeys request = call.options(press_block);
   return {object(call.self<SpecimenPair>().press(request, call.session().monitor()))};
@@ -152,37 +99,6 @@ Values sweep(Call& call) {
                    [pair](Call& step, const auto& turn) { return table_of_states(step, pair, turn); }}};
 }
 
-}  // namespace
-
-std::vector<PressRequest> requests_of(const Call& call, const Function& function) {
-  const Argument table = call.argument(1);
-  bool known = table.is_table() && !table.is_unknown();
-  const auto look = [&](const Argument&, const Argument& value) {
-    known = known && !holds_unknown(value, 1);
-  };
-  if (known) table.each(look);
-  if (!known) return {};
-  if (function.options == &press_block) return {press_block.read(table, call.function_name())};
-  if (function.options == &sweep_block) return sweep_block.read(table, call.function_name()).requests;
-  return {};
-}
-
-void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
-                  const PressRequest& request, const asperity::State& state) {
-  const Object self{&class_of<SpecimenPair>(), pair, false};
-  record_call(session, "contact:press", &self, press_block.resolved({request, 1}),
-              {object(asperity::State(state))});
-}
-
-const Block<PlaceKeys> place_block{
-    {integer("seed", &PlaceKeys::seed, at_least(0), "of the turn and the shift that are drawn").required()}};
-
-const Block<ShiftKeys> shift_block{
-    {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
-     quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
-
-namespace {
-
 void warn_of_flat(const Call& call, const char* done) {
   if (call.self<SpecimenPair>().upper_is_flat())
     call.warn(std::string(done) + " a flat upper body changes nothing: every placement is the same contact");
@@ -231,6 +147,82 @@ std::string digest_of_contact(const SpecimenPair& pair) {
 }
 
 }  // namespace
+
+const Block<PressKeys> press_block = [] {
+  std::vector<Option<PressKeys>> options;
+  for (const auto& entry : press_keys) {
+    auto option = custom<PressKeys>(
+        entry.key, entry.type(), entry.sentence,
+        [entry](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+          ++keys.given;
+          const auto v = detail::read_quantity(value, info, entry.range, problems);
+          if (!v) return;
+          keys.by = entry.by;
+          keys.value = *v;
+        });
+    option.info.dimension = entry.dimension;
+    option.info.range_text = entry.range.text(entry.dimension);
+    option.show = [entry](const PressKeys& keys) {
+      return keys.given == 1 && keys.by == entry.by ? format_exact(keys.value) : std::string();
+    };
+    options.push_back(std::move(option));
+  }
+  options.push_back(quantity("dwell", &PressRequest::dwell, dimension::time, at_least(0),
+                             "duration of the load; for creep alone"));
+  // Dimension of the controlled quantity, which precedes `preload` in the block.
+  auto preload = custom<PressKeys>(
+      "preload", "number|string|(number|string)[]",
+      "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
+      "there; or a list of values gone to in turn",
+      [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+        OptionInfo same = info;
+        for (const auto& entry : press_keys)
+          if (entry.by == keys.by) same.dimension = entry.dimension;
+        const auto read_one = [&](const Argument& one) {
+          if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
+        };
+        if (!value.is_table()) return read_one(value);
+        value.elements(read_one);
+      });
+  preload.show = [](const PressKeys& keys) {
+    std::vector<std::string> turns;
+    for (const double turn : keys.preload) turns.push_back(format_exact(turn));
+    return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
+  };
+  options.push_back(std::move(preload));
+  return Block<PressKeys>(std::move(options), [](PressKeys& keys, Problems& problems) {
+    if (keys.given != 1)
+      problems.push_back("give exactly one of `pressure`, `load`, `approach`, `indentation` and `flatten`; " +
+                         std::to_string(keys.given) + " are given");
+  });
+}();
+
+std::vector<PressRequest> requests_of(const Call& call, const Function& function) {
+  const Argument table = call.argument(1);
+  bool known = table.is_table() && !table.is_unknown();
+  const auto look = [&](const Argument&, const Argument& value) {
+    known = known && !holds_unknown(value, 1);
+  };
+  if (known) table.each(look);
+  if (!known) return {};
+  if (function.options == &press_block) return {press_block.read(table, call.function_name())};
+  if (function.options == &sweep_block) return sweep_block.read(table, call.function_name()).requests;
+  return {};
+}
+
+void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
+                  const PressRequest& request, const asperity::State& state) {
+  const Object self{&class_of<SpecimenPair>(), pair, false};
+  record_call(session, "contact:press", &self, press_block.resolved({request, 1}),
+              {object(asperity::State(state))});
+}
+
+const Block<PlaceKeys> place_block{
+    {integer("seed", &PlaceKeys::seed, at_least(0), "of the turn and the shift that are drawn").required()}};
+
+const Block<ShiftKeys> shift_block{
+    {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
+     quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
 
 Function contact_function() {
   return {.name = "contact",

@@ -282,22 +282,6 @@ const std::vector<Option<SceneKeys>>& effect_options() {
 }
 const Block<SceneKeys> effects_block{effect_options()};
 
-}  // namespace
-
-std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems) {
-  std::vector<std::string> names;
-  value.each([&](const Argument& key, const Argument&) {
-    if (key.is_text())
-      names.emplace_back(key.text());
-    else
-      problems.push_back("`effects` holds " + key.describe() + " as a key" + hint);
-  });
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-namespace {
-
 // Effects missing from this build are refused.
 void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
   if (!value.is_table())
@@ -371,6 +355,18 @@ Scene scene_of(const SceneKeys& keys, Surface lower, UpperBody upper) {
 }
 
 }  // namespace
+
+std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems) {
+  std::vector<std::string> names;
+  value.each([&](const Argument& key, const Argument&) {
+    if (key.is_text())
+      names.emplace_back(key.text());
+    else
+      problems.push_back("`effects` holds " + key.describe() + " as a key" + hint);
+  });
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 const RowBlock& effect_block(const Effect& effect) {
   static const std::map<const Effect*, RowBlock> blocks = [] {

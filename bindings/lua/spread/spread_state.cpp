@@ -59,56 +59,6 @@ std::string key_of(const SlabContactProblem& problem, const SpreadRequest& reque
   return digester.hex();
 }
 
-}  // namespace
-
-std::optional<Costed<SlabContactAnswer>> recalled_press(const Call& call, Team& team,
-                                                        const SlabContactProblem& problem,
-                                                        const SpreadRequest& request) {
-  std::string bytes;
-  team.work([&] {
-    ResultStore* const store = own_store(call);
-    if (store == nullptr) return;
-    const std::optional<FoundResult> found = store->find(key_of(problem, request));
-    if (!found) return;
-    ByteWriter out;
-    SlabContactAnswer names;
-    numbers_of(names, [&](const char* name, const auto&) { out.number(found->number(name)); });
-    out.number(found->cost.seconds);
-    out.number(found->cost.transforms);
-    out.number(found->cost.bytes);
-    out.text(found->text("solver"));
-    bytes = out.take();
-  });
-  bytes = team.text_of_first(bytes);
-  if (bytes.empty()) return {};
-  Costed<SlabContactAnswer> press;
-  ByteReader in(bytes);
-  numbers_of(press.result, [&]<class Number>(const char*, Number& value) {
-    value = static_cast<Number>(in.number<double>());
-  });
-  press.cost.seconds = in.number<double>();
-  press.cost.transforms = in.number<double>();
-  press.cost.bytes = in.number<std::int64_t>();
-  press.result.solver = in.text();
-  cost::count_transforms(press.cost.transforms);
-  return press;
-}
-
-void keep_press(const Call& call, const SlabContactProblem& problem, const SpreadRequest& request,
-                const Costed<SlabContactAnswer>& found) {
-  ResultStore* const store = own_store(call);
-  if (store == nullptr) return;
-  ResultFacts facts;
-  numbers_of(found.result, [&](const char* name, auto value) {
-    facts.numbers.emplace_back(name, static_cast<double>(value));
-  });
-  facts.texts.emplace_back("solver", found.result.solver);
-  facts.cost = found.cost;
-  store->keep(key_of(problem, request), spread_form, facts, {});
-}
-
-namespace {
-
 const SlabContactAnswer& answer(const SpreadState& of) { return *of.answer; }
 
 double nodes(const SpreadState& of) { return of.surface.slab.all_nodes(); }
@@ -160,6 +110,52 @@ std::string describe_spread_state(const SpreadState& s) {
 }
 
 }  // namespace
+
+std::optional<Costed<SlabContactAnswer>> recalled_press(const Call& call, Team& team,
+                                                        const SlabContactProblem& problem,
+                                                        const SpreadRequest& request) {
+  std::string bytes;
+  team.work([&] {
+    ResultStore* const store = own_store(call);
+    if (store == nullptr) return;
+    const std::optional<FoundResult> found = store->find(key_of(problem, request));
+    if (!found) return;
+    ByteWriter out;
+    SlabContactAnswer names;
+    numbers_of(names, [&](const char* name, const auto&) { out.number(found->number(name)); });
+    out.number(found->cost.seconds);
+    out.number(found->cost.transforms);
+    out.number(found->cost.bytes);
+    out.text(found->text("solver"));
+    bytes = out.take();
+  });
+  bytes = team.text_of_first(bytes);
+  if (bytes.empty()) return {};
+  Costed<SlabContactAnswer> press;
+  ByteReader in(bytes);
+  numbers_of(press.result, [&]<class Number>(const char*, Number& value) {
+    value = static_cast<Number>(in.number<double>());
+  });
+  press.cost.seconds = in.number<double>();
+  press.cost.transforms = in.number<double>();
+  press.cost.bytes = in.number<std::int64_t>();
+  press.result.solver = in.text();
+  cost::count_transforms(press.cost.transforms);
+  return press;
+}
+
+void keep_press(const Call& call, const SlabContactProblem& problem, const SpreadRequest& request,
+                const Costed<SlabContactAnswer>& found) {
+  ResultStore* const store = own_store(call);
+  if (store == nullptr) return;
+  ResultFacts facts;
+  numbers_of(found.result, [&](const char* name, auto value) {
+    facts.numbers.emplace_back(name, static_cast<double>(value));
+  });
+  facts.texts.emplace_back("solver", found.result.solver);
+  facts.cost = found.cost;
+  store->keep(key_of(problem, request), spread_form, facts, {});
+}
 
 // data table
 template <>
