@@ -185,11 +185,6 @@ const RecordType<Curve> curve_type{
      {"high", [](const Curve& c) { return of_points(c, &CurvePoint::high); },
       "upper end of its interval there"}}};
 
-template <auto read>
-Getter field(const char* name, const char* type, const char* sentence) {
-  return getter<read>(name, type, sentence);
-}
-
 struct CalibrationChartKeys {
   std::optional<std::string> x;
   bool likelihood = false;
@@ -355,77 +350,77 @@ Class make_class<CalibrationReport>() {
   Class c{"Calibration", "a calibration",
           "A result of lab.calibrate or t:fit. print() shows a line a parameter, correlation, verdict and "
           "warnings."};
-  c.describe = [](const void* self) { return calibration_text(*static_cast<const R*>(self)); };
-  c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
+  c.describe = text_of<calibration_text>;
+  c.digest = text_of<calibration_digest>;
   c.results = {&calibrated_parameter_type, &calibrated_specimen_type, &curve_type};
   c.fields = {
-      field<told_parameters>("parameters", "table<string, CalibratedParameter>",
-                             "each parameter under its name"),
-      field<told_values>("values", "table<string, number>",
-                         "the estimates by name in SI, without those that are not determined"),
-      field<[](const R& r) {
+      getter<told_parameters>("parameters", "table<string, CalibratedParameter>",
+                              "each parameter under its name"),
+      getter<told_values>("values", "table<string, number>",
+                          "the estimates by name in SI, without those that are not determined"),
+      getter<[](const R& r) {
         std::vector<std::string> names;
         for (const CalibratedParameter& of : r.found.parameters) names.push_back(of.name);
         return names;
       }>("names", "string[]", "of the parameters, in the order of `correlation`"),
-      field<[](const R& r) { return r.y; }>("y", "string", "the fitted column"),
-      field<[](const R& r) { return r.curve ? std::optional(r.curve->x) : std::nullopt; }>(
+      getter<[](const R& r) { return r.y; }>("y", "string", "the fitted column"),
+      getter<[](const R& r) { return r.curve ? std::optional(r.curve->x) : std::nullopt; }>(
           "x", "string?", "of t:fit: the column along"),
-      field<[](const R& r) {
+      getter<[](const R& r) {
         return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
       }>("name", "string?", "of t:fit: its name in charts"),
-      field<[](const R& r) { return r.curve ? Value(curve_type(r.curve->curve)) : Value(); }>(
+      getter<[](const R& r) { return r.curve ? Value(curve_type(r.curve->curve)) : Value(); }>(
           "curve", "FitCurve?", "of t:fit: the curve with its band, for drawing"),
-      field<[](const R& r) { return r.r_squared; }>(
+      getter<[](const R& r) { return r.r_squared; }>(
           "r_squared", "number?", "of t:fit: explained share of the scatter of y; nil if all y are equal"),
-      field<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
-                                                             "whether the rows determine every parameter"),
-      field<[](const R& r) { return r.found.verdict; }>(
+      getter<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
+                                                              "whether the rows determine every parameter"),
+      getter<[](const R& r) { return r.found.verdict; }>(
           "verdict", "string", "determined and undetermined parameters, and the basis of the intervals"),
-      field<[](const R& r) { return r.found.combinations; }>(
+      getter<[](const R& r) { return r.found.combinations; }>(
           "combinations", "string[]", "determined combinations of parameters that the rows do not separate"),
-      field<told_correlation>("correlation", "number[][]",
-                              "of the estimates; nan for parameters that are undetermined or at a bound"),
-      field<[](const R& r) { return r.found.condition; }>(
+      getter<told_correlation>("correlation", "number[][]",
+                               "of the estimates; nan for parameters that are undetermined or at a bound"),
+      getter<[](const R& r) { return r.found.condition; }>(
           "condition", "number?",
           "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
           "direction is not seen"),
-      field<[](const R& r) { return r.numbers.size(); }>("n", "integer", "rows that were used"),
-      field<[](const R& r) { return r.left_out; }>(
+      getter<[](const R& r) { return r.numbers.size(); }>("n", "integer", "rows that were used"),
+      getter<[](const R& r) { return r.left_out; }>(
           "left_out", "integer", "rows with an empty cell, no finite number or a weight of 0"),
-      field<[](const R& r) { return std::vector<std::int64_t>(r.numbers.begin(), r.numbers.end()); }>(
+      getter<[](const R& r) { return std::vector<std::int64_t>(r.numbers.begin(), r.numbers.end()); }>(
           "rows", "integer[]", "the rows that were used, counted from 1 after `where`"),
-      field<[](const R& r) { return r.found.fitted; }>("fitted", "number[]", "the model in each row"),
-      field<[](const R& r) { return known_numbers(r.found.fitted_low); }>(
+      getter<[](const R& r) { return r.found.fitted; }>("fitted", "number[]", "the model in each row"),
+      getter<[](const R& r) { return known_numbers(r.found.fitted_low); }>(
           "fitted_low", "number[]", "lower end of the interval of the model there; nan where there is none"),
-      field<[](const R& r) { return known_numbers(r.found.fitted_high); }>("fitted_high", "number[]",
-                                                                           "upper end of it"),
-      field<[](const R& r) { return r.found.residuals; }>("residuals", "number[]",
-                                                          "y less the model in each row"),
-      field<[](const R& r) { return r.found.residual_deviation; }>(
+      getter<[](const R& r) { return known_numbers(r.found.fitted_high); }>("fitted_high", "number[]",
+                                                                            "upper end of it"),
+      getter<[](const R& r) { return r.found.residuals; }>("residuals", "number[]",
+                                                           "y less the model in each row"),
+      getter<[](const R& r) { return r.found.residual_deviation; }>(
           "residual_sd", "number",
           "standard deviation of an observation about the model: relative with scatter=\"relative\", in "
           "units of `u` where that is known; 0 without degrees of freedom"),
-      field<[](const R& r) { return r.found.observations; }>("observations", "integer",
-                                                             "rows, or specimens where their means count"),
-      field<[](const R& r) { return r.found.degrees; }>(
+      getter<[](const R& r) { return r.found.observations; }>("observations", "integer",
+                                                              "rows, or specimens where their means count"),
+      getter<[](const R& r) { return r.found.degrees; }>(
           "degrees", "integer", "degrees of freedom: observations less parameters that they determine"),
-      field<[](const R& r) { return r.found.by_specimens; }>("by_specimens", "boolean",
-                                                             "whether the means of specimens were fitted"),
-      field<[](const R& r) { return calibrated_specimen_type.list(r.found.specimens); }>(
+      getter<[](const R& r) { return r.found.by_specimens; }>("by_specimens", "boolean",
+                                                              "whether the means of specimens were fitted"),
+      getter<[](const R& r) { return calibrated_specimen_type.list(r.found.specimens); }>(
           "specimens", "CalibratedSpecimen[]", "in the order of their first rows; empty without `specimen`"),
-      field<[](const R& r) {
+      getter<[](const R& r) {
         return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->f) : std::nullopt;
       }>("specimen_f", "number?",
          "variance between specimens over that within them, as F has it; nil where it cannot be seen"),
-      field<[](const R& r) {
+      getter<[](const R& r) {
         return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->p_value) : std::nullopt;
       }>("specimen_p", "number?", "how often F is larger where specimens do not scatter"),
-      field<[](const R& r) { return r.found.confidence; }>("confidence", "number", "of the intervals"),
-      field<[](const R& r) { return r.found.cut; }>(
+      getter<[](const R& r) { return r.found.confidence; }>("confidence", "number", "of the intervals"),
+      getter<[](const R& r) { return r.found.cut; }>(
           "cut", "number", "of the profile likelihood: t² of the degrees of freedom"),
-      field<[](const R& r) { return r.found.warnings; }>("warnings", "string[]", "what to look at"),
-      field<[](const R& r) { return r.found.calls; }>("calls", "integer", "how often the model was called"),
+      getter<[](const R& r) { return r.found.warnings; }>("warnings", "string[]", "what to look at"),
+      getter<[](const R& r) { return r.found.calls; }>("calls", "integer", "how often the model was called"),
   };
   c.methods = {
       {.name = "chart",

@@ -52,24 +52,6 @@ std::set<std::string>* columns_seen(const Call& call) {
   return mistakes == nullptr || book == nullptr ? nullptr : &mistakes->columns[book->name()];
 }
 
-}  // namespace
-
-// A name absent from the script's text is computed and may vary.
-void note_columns(const Call& call) {
-  std::set<std::string>* const columns = columns_seen(call);
-  if (columns == nullptr) return;
-  const Argument row = call.argument(1);
-  if (!row.is_table()) columns->insert("");
-  if (row.is_table())
-    row.each([&](const Argument& key, const Argument&) {
-      const bool literal =
-          key.is_text() && call.session().mistakes->script.find(key.text()) != std::string::npos;
-      columns->insert(literal ? split_column_unit(key.text()).name : "");
-    });
-}
-
-namespace {
-
 // Refuses an unknown column among known ones.
 void look_at_columns(const Call& call) {
   const std::set<std::string>* const columns = columns_seen(call);
@@ -115,14 +97,27 @@ Values units(Call& call) {
   return {};
 }
 
-std::string describe_notebook(const void* self) {
-  const auto& book = *static_cast<const Notebook*>(self);
+std::string describe_notebook(const Notebook& book) {
   Table table = book.table();
   table.rename("notebook \"" + book.name() + "\"");
   return table_text(table);
 }
 
 }  // namespace
+
+// A name absent from the script's text is computed and may vary.
+void note_columns(const Call& call) {
+  std::set<std::string>* const columns = columns_seen(call);
+  if (columns == nullptr) return;
+  const Argument row = call.argument(1);
+  if (!row.is_table()) columns->insert("");
+  if (row.is_table())
+    row.each([&](const Argument& key, const Argument&) {
+      const bool literal =
+          key.is_text() && call.session().mistakes->script.find(key.text()) != std::string::npos;
+      columns->insert(literal ? split_column_unit(key.text()).name : "");
+    });
+}
 
 std::shared_ptr<const asperity::Table> table_of_self(const Call& call) {
   const Argument self(call.L, 1);
@@ -150,7 +145,7 @@ Class make_class<Notebook>() {
       "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows "
       "written so far."};
   c.shareable = false;
-  c.describe = describe_notebook;
+  c.describe = text_of<describe_notebook>;
   c.fields = {
       getter<&Notebook::name>("name", "string", "of the notebook"),
       getter<Notebook>("file", "string", "where its rows are kept",
@@ -158,10 +153,9 @@ Class make_class<Notebook>() {
       getter<Notebook>("columns", "string[]", "the names of its columns, in order",
                        [](const Notebook& of) { return of.table().column_names(); }),
   };
-  c.length = [](const void* self) {
-    return static_cast<const Notebook*>(self)->read(
-        [](const Table& table) { return static_cast<std::int64_t>(table.rows()); });
-  };
+  c.length = from_value([](const Notebook& of) {
+    return of.read([](const Table& table) { return static_cast<std::int64_t>(table.rows()); });
+  });
   c.item = [](const void* self, std::int64_t k) {
     return static_cast<const Notebook*>(self)->read([k](const Table& table) { return row_value(table, k); });
   };

@@ -92,90 +92,6 @@ Map units_of(const Rows& table) {
   return units;
 }
 
-}  // namespace
-
-std::vector<Function> table_methods() {
-  std::vector<Function> methods = row_methods();
-  const std::vector<Function> others = {
-      {.name = "where",
-       .body = rows_where,
-       .sentence =
-           "A table of the rows whose columns hold these values. A value is a number, a string, a boolean, "
-           "or a list of alternatives. A number is in SI, or in the unit of the column's name; a quantity "
-           "such as \"10 MPa\" has its own.",
-       .parameters = {{"filter", "table", "values by the names of their columns"}},
-       .returns = "Table",
-       .example = "print(#book:where{ N={ 1, 2 } })",
-       .unknown_when_dry = true},
-      {.name = "column",
-       .body = cells_of_column,
-       .sentence =
-           "The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, \"\" "
-           "where one is. print shows the numbers in the column's unit.",
-       .parameters = {{"column", "string", "its name"}},
-       .returns = "any[]",
-       .example = "local mu = book:column \"mu\"",
-       .unknown_when_dry = true},
-      {.name = "joined",
-       .body = join_tables,
-       .sentence = "Joins each row to the rows of another table or notebook with equal values in the "
-                   "columns `by`: for example, measured numbers to computed ones.",
-       .parameters = {{"other", "Table|Notebook", "the other table"}},
-       .options = &join_block,
-       .returns = "Table",
-       .example = "print(book:joined(lab.table.from{ { N=1, measured=0.42 } }, { by=\"N\", unmatched=\"leave "
-                  "out\" }))",
-       .unknown_when_dry = true},
-      mean_method(),
-      fit_method(),
-      histogram_method(),
-      chart_method(),
-      show_method(),
-  };
-  methods.insert(methods.end(), others.begin(), others.end());
-  return methods;
-}
-
-std::vector<const RecordInfo*> table_results() { return {&histogram_type()}; }
-
-template <>
-Class make_class<asperity::Table>() {
-  Class c{
-      "Table", "a table of columns",
-      "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
-      "immutable value whose methods return new ones. Its numbers are in SI; print, files and charts show "
-      "them in the units of the columns."};
-  c.describe = [](const void* self) { return table_text(*static_cast<const Rows*>(self)); };
-  c.native_bytes = [](const void* self) {
-    const auto& table = *static_cast<const Rows*>(self);
-    return table.rows() * table.columns().size() * sizeof(Cell);
-  };
-  c.length = [](const void* self) {
-    return static_cast<std::int64_t>(static_cast<const Rows*>(self)->rows());
-  };
-  c.equal = have_one_digest<Rows>;
-  c.digest = text_of<&Rows::digest>;
-  c.fields = {
-      getter<Rows>("columns", "string[]", "the names of its columns, in order",
-                   [](const Rows& of) { return of.column_names(); }),
-      getter<Rows>("units", "table<string, string>", "the display unit of each column that has one",
-                   [](const Rows& of) { return units_of(of); }),
-      getter<&Rows::name>("name", "string", "where it came from, as errors call it"),
-      getter<&Rows::digest>("digest", "string",
-                            "of columns, units and cells: equal tables have equal digests"),
-  };
-  c.item = [](const void* self, std::int64_t k) { return row_value(*static_cast<const Rows*>(self), k); };
-  c.methods = table_methods();
-  c.results = table_results();
-  return c;
-}
-
-// lab.table: constructors of tables.
-
-namespace {
-
-using Rows = asperity::Table;
-
 struct FromKeys {
   std::vector<std::string> columns;
 };
@@ -236,6 +152,77 @@ Values table_from(Call& call) {
 }
 
 }  // namespace
+
+std::vector<Function> table_methods() {
+  std::vector<Function> methods = row_methods();
+  const std::vector<Function> others = {
+      {.name = "where",
+       .body = rows_where,
+       .sentence =
+           "A table of the rows whose columns hold these values. A value is a number, a string, a boolean, "
+           "or a list of alternatives. A number is in SI, or in the unit of the column's name; a quantity "
+           "such as \"10 MPa\" has its own.",
+       .parameters = {{"filter", "table", "values by the names of their columns"}},
+       .returns = "Table",
+       .example = "print(#book:where{ N={ 1, 2 } })",
+       .unknown_when_dry = true},
+      {.name = "column",
+       .body = cells_of_column,
+       .sentence =
+           "The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, \"\" "
+           "where one is. print shows the numbers in the column's unit.",
+       .parameters = {{"column", "string", "its name"}},
+       .returns = "any[]",
+       .example = "local mu = book:column \"mu\"",
+       .unknown_when_dry = true},
+      {.name = "joined",
+       .body = join_tables,
+       .sentence = "Joins each row to the rows of another table or notebook with equal values in the "
+                   "columns `by`: for example, measured numbers to computed ones.",
+       .parameters = {{"other", "Table|Notebook", "the other table"}},
+       .options = &join_block,
+       .returns = "Table",
+       .example = "print(book:joined(lab.table.from{ { N=1, measured=0.42 } }, { by=\"N\", unmatched=\"leave "
+                  "out\" }))",
+       .unknown_when_dry = true},
+      mean_method(),
+      fit_method(),
+      histogram_method(),
+      chart_method(),
+      show_method(),
+  };
+  methods.insert(methods.end(), others.begin(), others.end());
+  return methods;
+}
+
+std::vector<const RecordInfo*> table_results() { return {&histogram_type()}; }
+
+template <>
+Class make_class<asperity::Table>() {
+  Class c{
+      "Table", "a table of columns",
+      "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
+      "immutable value whose methods return new ones. Its numbers are in SI; print, files and charts show "
+      "them in the units of the columns."};
+  c.describe = [](const void* self) { return table_text(*static_cast<const Rows*>(self)); };
+  c.native_bytes = from_value([](const Rows& of) { return of.rows() * of.columns().size() * sizeof(Cell); });
+  c.length = from_value([](const Rows& of) { return static_cast<std::int64_t>(of.rows()); });
+  c.equal = have_one_digest<Rows>;
+  c.digest = text_of<&Rows::digest>;
+  c.fields = {
+      getter<Rows>("columns", "string[]", "the names of its columns, in order",
+                   [](const Rows& of) { return of.column_names(); }),
+      getter<Rows>("units", "table<string, string>", "the display unit of each column that has one",
+                   [](const Rows& of) { return units_of(of); }),
+      getter<&Rows::name>("name", "string", "where it came from, as errors call it"),
+      getter<&Rows::digest>("digest", "string",
+                            "of columns, units and cells: equal tables have equal digests"),
+  };
+  c.item = [](const void* self, std::int64_t k) { return row_value(*static_cast<const Rows*>(self), k); };
+  c.methods = table_methods();
+  c.results = table_results();
+  return c;
+}
 
 Module table_module() {
   Module m{"lab.table", "Tables of measured or computed numbers under named columns with units."};

@@ -72,12 +72,6 @@ const RecordType<NumberedEvent>& event_type() {
   return type;
 }
 
-}  // namespace
-
-Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
-
-namespace {
-
 Values events(Call& call) {
   const Protocol& protocol = call.self<Protocol>();
   List list;
@@ -220,18 +214,13 @@ Values write_protocol(Call& call) {
   return {path};
 }
 
-std::string describe_protocol(const void* self) {
-  const auto& protocol = *static_cast<const Protocol*>(self);
+std::string describe_protocol(const Protocol& protocol) {
   return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
-}
-std::int64_t length(const void* self) {
-  return static_cast<std::int64_t>(static_cast<const Protocol*>(self)->count());
-}
-std::size_t bytes_of_protocol(const void* self) {
-  return static_cast<const Protocol*>(self)->count() * sizeof(Protocol::Event);
 }
 
 }  // namespace
+
+Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
 
 // data table
 template <>
@@ -239,13 +228,12 @@ Class make_class<Protocol>() {
   Class c{"Protocol", "a protocol",
           "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
           "the number of events."};
-  c.length = length;
-  c.describe = describe_protocol;
-  c.native_bytes = bytes_of_protocol;
+  c.length = from_value([](const Protocol& of) { return static_cast<std::int64_t>(of.count()); });
+  c.describe = text_of<describe_protocol>;
+  c.native_bytes = from_value([](const Protocol& of) { return of.count() * sizeof(Protocol::Event); });
   c.equal = have_one_digest<Protocol>;
   c.digest = text_of<&Protocol::digest>;
-  c.fields = {getter<Protocol>("count", "integer", "number of events",
-                               [](const Protocol& of) { return length(&of); }),
+  c.fields = {getter<&Protocol::count>("count", "integer", "number of events"),
               getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
               getter<recording>("recording", "Recording?",
                                 "the events and thresholds of the recording; nil without a recording"),
