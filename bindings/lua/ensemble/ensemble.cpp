@@ -14,7 +14,6 @@
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -206,10 +205,8 @@ Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run)
   const Argument::StackGuard guard(L);
   lua_pushvalue(L, run.index());
   push_checked(L, case_values(first), "a case");
-  if (lua_pcall(L, 1, 1, 0) != LUA_OK) {
-    stop_flag().check();
-    throw Error(ErrorCode::bad_value, case_name(first) + ": " + error_text(L, -1));
-  }
+  if (const auto failure = failure_of_call(L, 1, 1))
+    throw Error(ErrorCode::bad_value, case_name(first) + ": " + *failure);
   const Argument returned(L, -1);
   std::vector<std::string> fields;
   bool known = true;

@@ -67,12 +67,7 @@ void add_cells(std::vector<Entry>& row, const Argument& given) {
 void add_cells(std::vector<Entry>& row, lua_State* L, const Record& record, Table& table) {
   for (const Record::Entry& entry : record.entries) {
     const Argument::StackGuard guard(L);
-    auto push_value = [&entry](lua_State* s) {
-      push(s, entry.value);
-      return 1;
-    };
-    if (protect(L, 0, 1, push_value) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "there is no memory for a table");
+    push_checked(L, entry.value, "a table");
     const auto cell = cell_of(Argument(L, -1));
     if (!cell) continue;
     if (is_number(*cell) && !table.find_column(entry.field))

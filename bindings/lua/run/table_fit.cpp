@@ -2,13 +2,11 @@
 #include <map>
 #include <utility>
 
-#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/calibration.hpp"
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/state.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/study/curve_fit.hpp"
 
@@ -113,16 +111,8 @@ class ScriptModel {
     for (std::size_t k = 0; k < parameters.size(); ++k) q.items[k].second = parameters[k];
     lua_State* L = function_.state();
     const Argument::StackGuard guard(L);
-    lua_pushvalue(L, function_.index());
-    const Value arguments[] = {std::move(q), std::move(row)};
-    auto push_both = [&arguments](lua_State* s) {
-      for (const Value& argument : arguments) push(s, argument);
-      return 2;
-    };
-    if (protect(L, 0, 2, push_both) != LUA_OK || lua_pcall(L, 2, 1, 0) != LUA_OK) {
-      stop_flag().check();
-      throw Error(ErrorCode::bad_value, "the function `model` failed: " + error_text(L, -1), order);
-    }
+    if (const auto failure = failure_of_call(function_, {std::move(q), std::move(row)}))
+      throw Error(ErrorCode::bad_value, "the function `model` failed: " + *failure, order);
     const Argument result(L, -1);
     if (!result.is_number())
       throw Error(ErrorCode::bad_value, "the function `model` returned " + result.describe(),
@@ -176,10 +166,8 @@ Values fit_of_columns(Call& call) {
 }  // namespace
 
 std::optional<FittedCurve> fitted_curve_of(const Argument& value) {
-  const Object* object = value.as_object(class_of<CalibrationReport>());
-  return object != nullptr && object->pointer != nullptr
-             ? std::static_pointer_cast<const CalibrationReport>(object->pointer)->curve
-             : std::nullopt;
+  const auto* report = value.as<CalibrationReport>();
+  return report != nullptr ? report->curve : std::nullopt;
 }
 
 Function fit_method() {

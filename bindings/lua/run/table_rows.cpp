@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
@@ -71,16 +70,7 @@ Cell computed_cell(const Call& call, const Argument& function, const std::string
     return Error(ErrorCode::bad_value, "the function of " + quoted(column) + " failed in row " +
                                            std::to_string(number) + ": " + why);
   };
-  lua_pushvalue(L, function.index());
-  const Value value(row);
-  auto push_row = [&value](lua_State* s) {
-    push(s, value);
-    return 1;
-  };
-  if (protect(L, 0, 1, push_row) != LUA_OK || lua_pcall(L, 1, 1, 0) != LUA_OK) {
-    stop_flag().check();
-    throw failed(error_text(L, -1));
-  }
+  if (const auto failure = failure_of_call(function, {row})) throw failed(*failure);
   const Argument answer(L, -1);
   if (answer.is_nil()) return {};
   const auto cell = cell_of(answer);
@@ -202,10 +192,19 @@ Values expect(Call& call) {
   return {run.expect(expectation, *table, name_of_self(call)).passed};
 }
 
+Function reduction(const std::string& name, Body body, const char* sentence) {
+  return {.name = name,
+          .body = body,
+          .sentence = sentence,
+          .parameters = {{"column", "string", "its name"}},
+          .returns = "number",
+          .example = "print(book:" + name + " \"mu\")",
+          .unknown_when_dry = true};
+}
+
 }  // namespace
 
 std::vector<Function> row_methods() {
-  const std::vector<Parameter> column = {{"column", "string", "its name"}};
   return {
       {.name = "rows",
        .body = all_rows,
@@ -233,27 +232,9 @@ std::vector<Function> row_methods() {
        .returns = "Table",
        .example = "print(book:with{ twice=function(row) return 2 * row.mu end })",
        .unknown_when_dry = true},
-      {.name = "min",
-       .body = reduced<Reduction::least>,
-       .sentence = "The least number of a column, in SI.",
-       .parameters = column,
-       .returns = "number",
-       .example = "print(book:min \"mu\")",
-       .unknown_when_dry = true},
-      {.name = "max",
-       .body = reduced<Reduction::greatest>,
-       .sentence = "The greatest number of a column, in SI.",
-       .parameters = column,
-       .returns = "number",
-       .example = "print(book:max \"mu\")",
-       .unknown_when_dry = true},
-      {.name = "sum",
-       .body = reduced<Reduction::sum>,
-       .sentence = "The sum of a column, in SI.",
-       .parameters = column,
-       .returns = "number",
-       .example = "print(book:sum \"mu\")",
-       .unknown_when_dry = true},
+      reduction("min", reduced<Reduction::least>, "The least number of a column, in SI."),
+      reduction("max", reduced<Reduction::greatest>, "The greatest number of a column, in SI."),
+      reduction("sum", reduced<Reduction::sum>, "The sum of a column, in SI."),
       {.name = "write",
        .body = write_table,
        .sentence = "On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: "

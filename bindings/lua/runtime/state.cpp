@@ -14,6 +14,7 @@
 
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/embedded.hpp"
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -258,40 +259,6 @@ int set_up(lua_State* L) {
   return 0;
 }
 
-}  // namespace
-
-void StateCloser::operator()(lua_State* L) const {
-  const std::unique_ptr<StateHeap> heap(StateHeap::of(L));
-  lua_close(L);
-}
-
-std::size_t begin_of_script(std::string_view text) {
-  const std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  return begin < text.size() && text[begin] == '#' ? std::min(text.find('\n'), text.size()) : begin;
-}
-
-std::string search_path(const std::string& script_folder) {
-  return script_folder + "/?.lua;" + script_folder + "/?/init.lua";
-}
-
-State make_state(Session& session, const std::string& script_folder) {
-  auto heap = std::make_unique<StateHeap>();
-  State state(lua_newstate(StateHeap::allocate, heap.get()));
-  if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
-  lua_State* L = state.get();
-  heap.release()->main = L;  // the state now owns the heap
-  const std::string path = script_folder.empty() ? std::string() : search_path(script_folder);
-  Setup setup{&session, path.c_str()};
-  lua_pushcfunction(L, set_up);
-  lua_pushlightuserdata(L, &setup);
-  if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
-    const std::string message = error_text(L, -1);
-    throw Error(ErrorCode::internal, "the Lua state could not be set up: " + message);
-  }
-  return state;
-}
-
-namespace {
 const char* stop_sentence(StopReason reason) {
   switch (reason) {
     case StopReason::none:
@@ -328,7 +295,64 @@ void stop_hook(lua_State* L, lua_Debug* frame) {
   }
   // The script has ended, perhaps by this stop: an error would lose its message.
 }
+
+// Whether the first line of a message has a place such as "script.lua:3:".
+bool names_a_line(const char* message) {
+  for (const char* at = message; *at != '\0' && *at != '\n'; ++at) {
+    if (*at != ':') continue;
+    const std::size_t digits = std::strspn(at + 1, "0123456789");
+    if (digits > 0 && at[1 + digits] == ':') return true;
+  }
+  return false;
+}
+
+// Lua's own C functions, and error values other than text, name no line. A script's error("text", 0) stays as
+// written.
+void add_running_line(lua_State* L, bool text) {
+  lua_Debug frame;
+  if (text && lua_getstack(L, 1, &frame) != 0 && lua_getinfo(L, "Sn", &frame) != 0 && *frame.what == 'C' &&
+      frame.name != nullptr && std::strcmp(frame.name, "error") == 0)
+    return;
+  for (int level = 1; !names_a_line(lua_tostring(L, 1)) && lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline <= 0 || std::strcmp(frame.source, "=sandbox") == 0) continue;
+    lua_pushfstring(L, "%s:%d: %s", frame.short_src, frame.currentline, lua_tostring(L, 1));
+    lua_replace(L, 1);
+  }
+}
+
 }  // namespace
+
+void StateCloser::operator()(lua_State* L) const {
+  const std::unique_ptr<StateHeap> heap(StateHeap::of(L));
+  lua_close(L);
+}
+
+std::size_t begin_of_script(std::string_view text) {
+  const std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  return begin < text.size() && text[begin] == '#' ? std::min(text.find('\n'), text.size()) : begin;
+}
+
+std::string search_path(const std::string& script_folder) {
+  return script_folder + "/?.lua;" + script_folder + "/?/init.lua";
+}
+
+State make_state(Session& session, const std::string& script_folder) {
+  auto heap = std::make_unique<StateHeap>();
+  State state(lua_newstate(StateHeap::allocate, heap.get()));
+  if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
+  lua_State* L = state.get();
+  heap.release()->main = L;  // the state now owns the heap
+  const std::string path = script_folder.empty() ? std::string() : search_path(script_folder);
+  Setup setup{&session, path.c_str()};
+  lua_pushcfunction(L, set_up);
+  lua_pushlightuserdata(L, &setup);
+  if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
+    const std::string message = error_text(L, -1);
+    throw Error(ErrorCode::internal, "the Lua state could not be set up: " + message);
+  }
+  return state;
+}
 
 void interrupt(lua_State* L) {
   lua_sethook(L, stop_hook, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
@@ -356,32 +380,24 @@ std::string error_text(lua_State* L, int index) {
   return text;
 }
 
-namespace {
-// Whether the first line of a message has a place such as "script.lua:3:".
-bool names_a_line(const char* message) {
-  for (const char* at = message; *at != '\0' && *at != '\n'; ++at) {
-    if (*at != ':') continue;
-    const std::size_t digits = std::strspn(at + 1, "0123456789");
-    if (digits > 0 && at[1 + digits] == ':') return true;
-  }
-  return false;
+std::optional<std::string> failure_of_call(lua_State* L, int arguments, int results) {
+  if (lua_pcall(L, arguments, results, 0) == LUA_OK) return {};
+  stop_flag().check();
+  return error_text(L, -1);
 }
 
-// Lua's own C functions, and error values other than text, name no line. A script's error("text", 0) stays as
-// written.
-void add_running_line(lua_State* L, bool text) {
-  lua_Debug frame;
-  if (text && lua_getstack(L, 1, &frame) != 0 && lua_getinfo(L, "Sn", &frame) != 0 && *frame.what == 'C' &&
-      frame.name != nullptr && std::strcmp(frame.name, "error") == 0)
-    return;
-  for (int level = 1; !names_a_line(lua_tostring(L, 1)) && lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline <= 0 || std::strcmp(frame.source, "=sandbox") == 0) continue;
-    lua_pushfstring(L, "%s:%d: %s", frame.short_src, frame.currentline, lua_tostring(L, 1));
-    lua_replace(L, 1);
-  }
+std::optional<std::string> failure_of_call(const Argument& function, const Values& arguments) {
+  lua_State* L = function.state();
+  lua_pushvalue(L, function.index());
+  const int count = static_cast<int>(arguments.size());
+  auto push_all = [&](lua_State* s) {
+    for (const Value& argument : arguments) push(s, argument);
+    return count;
+  };
+  if (protect(L, 0, count, push_all) == LUA_OK) return failure_of_call(L, count, 1);
+  stop_flag().check();
+  return error_text(L, -1);
 }
-}  // namespace
 
 int traceback_handler(lua_State* L) {
   const bool text = lua_type(L, 1) == LUA_TSTRING;

@@ -207,10 +207,8 @@ void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs,
 
 void AskedFunction::call(const Knobs& knobs) const {
   push_with_knobs(L_, ask_, knobs, "the table of `ask`");
-  if (lua_pcall(L_, 1, 1, 0) == LUA_OK) return;
-  stop_flag().check();
-  throw Error(ErrorCode::bad_value,
-              "`ask` failed for " + lua_source(knobs) + ": " + std::string(error_text(L_, -1)));
+  if (const auto failure = failure_of_call(L_, 1, 1))
+    throw Error(ErrorCode::bad_value, "`ask` failed for " + lua_source(knobs) + ": " + *failure);
 }
 
 AskedFunction::Answer AskedFunction::operator()(const Knobs& knobs, Monitor& monitor) const {

@@ -222,15 +222,8 @@ class CalibratedFunction {
     lua_pushvalue(L, function_);
     push_checked(L, named(q), "the parameters of the model");
     lua_rawgeti(L, rows_, static_cast<lua_Integer>(row) + 1);
-    int status = LUA_OK;
-    {
-      const Session::Reporting reporting(session_, monitor_);
-      status = lua_pcall(L, 2, 1, 0);
-    }
-    if (status != LUA_OK) {
-      stop_flag().check();
-      throw failure_in(q, row, error_text(L, -1));
-    }
+    const Session::Reporting reporting(session_, monitor_);
+    if (const auto failure = failure_of_call(L, 2, 1)) throw failure_in(q, row, *failure);
     const Argument result(L, -1);
     if (result.is_nil()) return std::numeric_limits<double>::quiet_NaN();
     if (!result.is_number()) throw wrong_answer(q, row, result.describe());

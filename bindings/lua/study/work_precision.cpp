@@ -131,17 +131,9 @@ class LuaWork final : public StudyWork {
 
   StudyAnswer ask(const Knobs& knobs, Monitor& monitor) override {
     const int bottom = lua_gettop(L) - 2;
-    StudyAnswer answer;
-    {
-      const Session::Reporting reporting(session_, monitor);
-      if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
-        stop_flag().check();
-        answer.failure = error_text(L, -1);
-        lua_settop(L, bottom);
-        return answer;
-      }
-    }
-    answer = read_answer(L, knobs);
+    const Session::Reporting reporting(session_, monitor);
+    const auto failure = failure_of_call(L, 1, 2);
+    StudyAnswer answer = failure ? StudyAnswer{{}, *failure} : read_answer(L, knobs);
     lua_settop(L, bottom);
     return answer;
   }
@@ -170,11 +162,8 @@ Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
     LuaWork work(call, ask, keys.name);
     work.prepare(knobs);
     const int bottom = lua_gettop(call.L) - 2;
-    if (lua_pcall(call.L, 1, 2, 0) != LUA_OK) {
-      stop_flag().check();
-      throw Error(ErrorCode::bad_value,
-                  keys.ways.front().name + " " + lua_source(knobs) + ": " + error_text(call.L, -1));
-    }
+    if (const auto failure = failure_of_call(call.L, 1, 2))
+      throw Error(ErrorCode::bad_value, keys.ways.front().name + " " + lua_source(knobs) + ": " + *failure);
     if (!Argument(call.L, -2).is_unknown()) read_answer(call.L, knobs);
     lua_settop(call.L, bottom);
   }
