@@ -14,8 +14,7 @@ namespace asperity::lua {
 
 namespace {
 
-struct KnobKeys {
-  RunKnob knob;
+struct KnobKeys : RunKnob {
   // The key that fixed the dimension; empty after plain numbers.
   std::string told_by, told;
 };
@@ -27,7 +26,7 @@ Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::s
              [member](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
                if (value.is_unknown()) return;
                if (value.is_number()) {
-                 keys.knob.*member = value.number();
+                 keys.*member = value.number();
                  return;
                }
                if (!value.is_text())
@@ -36,16 +35,16 @@ Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::s
                const std::string text(value.text());
                try {
                  const Quantity quantity = parse_quantity(text);
-                 keys.knob.*member = quantity.value;
+                 keys.*member = quantity.value;
                  if (quantity.dimension == dimension::number) return;
-                 if (!keys.told_by.empty() && quantity.dimension != keys.knob.dimension) {
+                 if (!keys.told_by.empty() && quantity.dimension != keys.dimension) {
                    problems.push_back(quoted(info.name) + " is " + quoted(text) + ", " +
                                       describe(quantity.dimension) + ", and " + quoted(keys.told_by) +
-                                      " is " + quoted(keys.told) + ", " + describe(keys.knob.dimension) +
+                                      " is " + quoted(keys.told) + ", " + describe(keys.dimension) +
                                       "; give quantities of one kind");
                    return;
                  }
-                 keys.knob.dimension = quantity.dimension;
+                 keys.dimension = quantity.dimension;
                  keys.told_by = info.name;
                  keys.told = text;
                } catch (const Error& error) {
@@ -58,41 +57,25 @@ Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::s
 void check_knob(KnobKeys& keys, Problems& problems) {
   if (!problems.empty()) return;
   try {
-    require_knob(keys.knob);
+    require_knob(keys);
   } catch (const Error& error) {
     problems.push_back(error.what());
   }
 }
 
 const Block<KnobKeys> knob_block{
-    {Option<KnobKeys>(
-         custom<KnobKeys>(
-             "name", "string", "by which it is set; the same one in a script is the same knob",
-             [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-               if (value.is_text())
-                 keys.knob.name = std::string(value.text());
-               else
-                 detail::wrong_type(value, info, "a string", problems);
-             }))
-         .required(),
+    {text("name", &RunKnob::name, "by which it is set; the same one in a script is the same knob").required(),
      knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
      knob_quantity("to", &RunKnob::to, "the upper end"),
      knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
-     custom<KnobKeys>("log", "boolean", "equal ways of the slider are equal ratios",
-                      [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-                        if (value.is_boolean())
-                          keys.knob.log = value.boolean();
-                        else
-                          detail::wrong_type(value, info, "true or false", problems);
-                      })
-         .defaults_to("false")},
+     flag("log", &RunKnob::log, "equal ways of the slider are equal ratios")},
     check_knob};
 
 Values make_knob(Call& call) {
   const KnobKeys keys = call.options(knob_block);
   const Session& session = call.session();
-  const double value = session.knobs->make(keys.knob);
-  if (session.notes != nullptr) session.notes->knobs.push_back(keys.knob);
+  const double value = session.knobs->make(keys);
+  if (session.notes != nullptr) session.notes->knobs.push_back(keys);
   note_knobs(session);
   return {value};
 }
