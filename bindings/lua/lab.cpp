@@ -102,6 +102,11 @@ Function quantity_function() {
       .example = "print(lab.quantity(\"640 HV\", \"pressure\"))"};
 }
 
+template <class... T>
+std::vector<const Class*> classes_of() {
+  return {&class_of<T>()...};
+}
+
 template <int numerator, int denominator = 1>
 Value factor() {
   return static_cast<double>(numerator) / denominator;
@@ -170,7 +175,6 @@ Module units_module() {
   };
 }
 
-// All modules and classes of the language, one per line.
 const std::vector<const Module*>& modules() {
   static const std::array<Module, 9> made{lab_module(),     units_module(),    surface_module(),
                                           profile_module(), protocol_module(), exact_module(),
@@ -183,37 +187,12 @@ const std::vector<const Module*>& modules() {
   return all;
 }
 const std::vector<const Class*>& classes() {
-  static const std::vector<const Class*> all = {
-      &class_of<Material>(),
-      &class_of<Surface>(),
-      &class_of<Profile>(),
-      &class_of<ArealParameters>(),
-      &class_of<MaterialRatioCurve>(),
-      &class_of<Autocorrelation>(),
-      &class_of<SpecimenPair>(),
-      &class_of<asperity::State>(),
-      &class_of<StateError>(),
-      &class_of<StateBounds>(),
-      &class_of<DiscretisationError>(),
-      &class_of<NamedField>(),
-      &class_of<Plan>(),
-      &class_of<LedgerReport>(),
-      &class_of<Stylus>(),
-      &class_of<Protocol>(),
-      &class_of<JunctionLaw>(),
-      &class_of<PartialSlip>(),
-      &class_of<TiltStage>(),
-      &class_of<Notebook>(),
-      &class_of<asperity::Table>(),
-      &class_of<Budget>(),
-      &class_of<Sensitivity>(),
-      &class_of<Study>(),
-      &class_of<StudyChoice>(),
-      &class_of<CalibrationReport>(),
-      &class_of<SlabSurface>(),
-      &class_of<SpreadContact>(),
-      &class_of<SpreadState>(),
-  };
+  static const std::vector<const Class*> all =
+      classes_of<Material, Surface, Profile, ArealParameters, MaterialRatioCurve, Autocorrelation,
+                 SpecimenPair, asperity::State, StateError, StateBounds, DiscretisationError, NamedField,
+                 Plan, LedgerReport, Stylus, Protocol, JunctionLaw, PartialSlip, TiltStage, Notebook,
+                 asperity::Table, Budget, Sensitivity, Study, StudyChoice, CalibrationReport, SlabSurface,
+                 SpreadContact, SpreadState>();
   return all;
 }
 

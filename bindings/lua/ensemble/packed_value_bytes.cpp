@@ -68,6 +68,10 @@ struct PackedValue::Writer : ValueVisitor {
       : packed(written), name(called), given(at_hand) {}
 
   void tag(Tag value) { out.number(static_cast<std::uint8_t>(value)); }
+  void put(Tag kind, const auto& value) {
+    tag(kind);
+    write_fields(out, value);
+  }
   // "run(case).bench"
   std::string path_to(std::uint32_t to, int steps = 0) const {
     if (const auto* root = std::get_if<NodeId>(&packed.root_);
@@ -99,9 +103,7 @@ struct PackedValue::Writer : ValueVisitor {
   void leaf(const Object& object) {
     std::size_t place = 0;
     if (same_object(object, given, place) != nullptr) {
-      tag(Tag::given);
-      out.number(static_cast<std::uint64_t>(place));
-      return;
+      return put(Tag::given, static_cast<std::uint64_t>(place));
     }
     if (const std::string refused = no_bytes_for(object); !refused.empty()) refuse(refused);
     if (object.type == &class_of<Surface>()) {
@@ -119,8 +121,7 @@ struct PackedValue::Writer : ValueVisitor {
       out.numbers(profile.measured_heights());
       write_fields(out, profile.closed_radius());
     } else {
-      tag(Tag::material);
-      write_fields(out, *static_cast<const Material*>(object.pointer.get()));
+      put(Tag::material, *static_cast<const Material*>(object.pointer.get()));
     }
   }
   void begin(const Value&) {
@@ -146,22 +147,10 @@ struct PackedValue::Writer : ValueVisitor {
   }
   void enter(const Map&) { tag(Tag::map); }
   void leaf(std::monostate) { tag(Tag::nil); }
-  void leaf(bool truth) {
-    tag(Tag::truth);
-    out.number(truth);
-  }
-  void leaf(std::int64_t number) {
-    tag(Tag::integer);
-    out.number(number);
-  }
-  void leaf(double number) {
-    tag(Tag::number);
-    out.number(number);
-  }
-  void leaf(const std::string& text) {
-    tag(Tag::text);
-    out.text(text);
-  }
+  void leaf(bool truth) { put(Tag::truth, truth); }
+  void leaf(std::int64_t number) { put(Tag::integer, number); }
+  void leaf(double number) { put(Tag::number, number); }
+  void leaf(const std::string& text) { put(Tag::text, text); }
   void leaf(const Value::Numbers& numbers) {
     tag(Tag::numbers);
     out.numbers(*numbers);
@@ -178,8 +167,7 @@ struct PackedValue::Writer : ValueVisitor {
         [&](const auto& held) {
           using Held = std::decay_t<decltype(held)>;
           if constexpr (std::is_same_v<Held, NodeId>) {
-            tag(Tag::node);
-            out.number(held.index);
+            put(Tag::node, held.index);
           } else if constexpr (std::is_same_v<Held, std::monostate> || std::is_same_v<Held, bool> ||
                                std::is_same_v<Held, std::int64_t> || std::is_same_v<Held, double> ||
                                std::is_same_v<Held, std::string>) {

@@ -34,11 +34,8 @@ struct HertzKeys : PressedKeys {
   std::shared_ptr<JunctionLaw> law;
 };
 const Block<HertzKeys> hertz_block{
-    {Option<HertzKeys>(
-         quantity("radius", &HertzKeys::radius, dimension::length, above(0), "of the paraboloid"))
-         .required(),
-     Option<HertzKeys>(
-         quantity("modulus", &HertzKeys::modulus, dimension::pressure, above(0), "E* of the two bodies"))
+    {quantity("radius", &HertzKeys::radius, dimension::length, above(0), "of the paraboloid").required(),
+     quantity("modulus", &HertzKeys::modulus, dimension::pressure, above(0), "E* of the two bodies")
          .required(),
      load_key(), approach_key(),
      native<JunctionLaw>("friction", &HertzKeys::law, "Law", "a law, from lab.friction",
@@ -137,8 +134,7 @@ struct BoxParaboloidKeys : PressedKeys {
   double radius = 0, stiffness = 0;
 };
 const Block<BoxParaboloidKeys> box_paraboloid_block{
-    {Option<BoxParaboloidKeys>(
-         quantity("radius", &BoxParaboloidKeys::radius, dimension::length, above(0), "of the paraboloid"))
+    {quantity("radius", &BoxParaboloidKeys::radius, dimension::length, above(0), "of the paraboloid")
          .required(),
      quantity("stiffness", &BoxParaboloidKeys::stiffness, dimension::stiffness, above(0), "of the elements")
          .required(),

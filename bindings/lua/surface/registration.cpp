@@ -10,10 +10,9 @@ namespace asperity::lua {
 namespace {
 
 const Block<RegistrationOptions> registration_block{
-    {Option<RegistrationOptions>(
-         quantity("angle", &RegistrationOptions::angle, dimension::angle, at_least(0),
-                  "greatest turn that is looked for, to either side; from half a turn on the whole circle, "
-                  "which takes some ten times as long as a few degrees"))
+    {quantity("angle", &RegistrationOptions::angle, dimension::angle, at_least(0),
+              "greatest turn that is looked for, to either side; from half a turn on the whole circle, "
+              "which takes some ten times as long as a few degrees")
          .defaults_to("\"360 deg\""),
      quantity("at_most", &RegistrationOptions::at_most, dimension::length, above(0),
               "greatest `shift` that is looked for; without it whatever leaves a tenth of the maps on top of "
