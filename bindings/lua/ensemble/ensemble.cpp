@@ -102,9 +102,7 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
     if (list.is_unknown()) {
       values.push_back({name, pack(list.state(), list.index(), Cargo::data, path, ""), "?"});
     } else if (!list.is_table()) {
-      problems.push_back(quoted(path) + " is " + list.describe() + "; give a list of values, such as {" +
-                         value_text(list) + "}");
-      return;
+      return detail::wrong_type(list, path, "a list of values, such as {" + value_text(list) + "}", problems);
     }
     if (list.is_table() && !list.is_list()) {
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
@@ -131,10 +129,7 @@ void read_cases(const Argument& value, const OptionInfo& info, EnsembleKeys& key
   keys.cases.emplace();
   value.elements([&](const Argument& item, std::int64_t k) {
     const std::string path = info.name + "[" + std::to_string(k) + "]";
-    if (!item.is_table()) {
-      problems.push_back(quoted(path) + " is " + item.describe() + "; give a table of named values");
-      return;
-    }
+    if (!item.is_table()) return detail::wrong_type(item, path, "a table of named values", problems);
     EnsembleKeys::Values values;
     item.each([&](const Argument& key, const Argument& part) {
       if (key.is_text())

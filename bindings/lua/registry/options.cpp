@@ -29,8 +29,21 @@ std::string meant_by(std::string_view name, std::span<const std::string> names) 
 
 namespace detail {
 
-void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems) {
-  problems.push_back(quoted(info.name) + " is " + value.describe() + "; give " + std::string(wanted));
+void wrong_type(const Argument& value, std::string_view name, std::string_view wanted, Problems& problems) {
+  problems.push_back(quoted(name) + " is " + value.describe() + "; give " + std::string(wanted));
+}
+
+std::optional<Quantity> read_any_quantity(const Argument& value, const std::string& name,
+                                          std::string_view wanted, Problems& problems) {
+  if (value.is_unknown()) return {};
+  if (value.is_number()) return Quantity{value.number(), dimension::number};
+  std::optional<Quantity> quantity;
+  if (value.is_text())
+    collect(
+        problems, [&] { quantity = parse_quantity(value.text()); }, name);
+  else
+    wrong_type(value, name, wanted, problems);
+  return quantity;
 }
 
 namespace {

@@ -67,7 +67,23 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
 // Scaled during an accuracy study (variation.hpp).
 std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
                                        const NumberRange& range, Problems& problems);
-void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
+void wrong_type(const Argument& value, std::string_view name, std::string_view wanted, Problems& problems);
+inline void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted,
+                       Problems& problems) {
+  wrong_type(value, info.name, wanted, problems);
+}
+// A number, or a quantity of any kind.
+std::optional<Quantity> read_any_quantity(const Argument& value, const std::string& name,
+                                          std::string_view wanted, Problems& problems);
+// An error of `act` becomes a problem, which begins with the key if one is given.
+template <class Act>
+void collect(Problems& problems, Act act, const std::string& key = "") {
+  try {
+    act();
+  } catch (const Error& error) {
+    problems.push_back((key.empty() ? "" : quoted(key) + ": ") + error.what());
+  }
+}
 // Returns the index of the word.
 std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
                                      const std::vector<std::string>& words, Problems& problems);
@@ -356,11 +372,7 @@ Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, st
       std::move(name), "table", std::move(sentence),
       [member, &inner](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
         if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
-        try {
-          options.*member = inner.read(value, quoted(info.name));
-        } catch (const Error& error) {
-          problems.push_back(error.what());
-        }
+        detail::collect(problems, [&] { options.*member = inner.read(value, quoted(info.name)); });
       });
   option.info.inner = &inner;
   return option;

@@ -24,43 +24,26 @@ Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::s
   return custom<KnobKeys>(
              std::move(name), "number|string", std::move(sentence),
              [member](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-               if (value.is_unknown()) return;
-               if (value.is_number()) {
-                 keys.*member = value.number();
-                 return;
-               }
-               if (!value.is_text())
-                 return detail::wrong_type(value, info, "a number or a quantity such as \"20 MPa\"",
-                                           problems);
+               const auto quantity = detail::read_any_quantity(
+                   value, info.name, "a number or a quantity such as \"20 MPa\"", problems);
+               if (!quantity) return;
+               keys.*member = quantity->value;
+               if (quantity->dimension == dimension::number) return;
                const std::string text(value.text());
-               try {
-                 const Quantity quantity = parse_quantity(text);
-                 keys.*member = quantity.value;
-                 if (quantity.dimension == dimension::number) return;
-                 if (!keys.told_by.empty() && quantity.dimension != keys.dimension) {
-                   problems.push_back(quoted(info.name) + " is " + quoted(text) + ", " +
-                                      describe(quantity.dimension) + ", and " + quoted(keys.told_by) +
-                                      " is " + quoted(keys.told) + ", " + describe(keys.dimension) +
-                                      "; give quantities of one kind");
-                   return;
-                 }
-                 keys.dimension = quantity.dimension;
-                 keys.told_by = info.name;
-                 keys.told = text;
-               } catch (const Error& error) {
-                 problems.push_back(quoted(info.name) + ": " + error.what());
-               }
+               if (!keys.told_by.empty() && quantity->dimension != keys.dimension)
+                 return problems.push_back(quoted(info.name) + " is " + quoted(text) + ", " +
+                                           describe(quantity->dimension) + ", and " + quoted(keys.told_by) +
+                                           " is " + quoted(keys.told) + ", " + describe(keys.dimension) +
+                                           "; give quantities of one kind");
+               keys.dimension = quantity->dimension;
+               keys.told_by = info.name;
+               keys.told = text;
              })
       .required();
 }
 
 void check_knob(KnobKeys& keys, Problems& problems) {
-  if (!problems.empty()) return;
-  try {
-    require_knob(keys);
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
+  if (problems.empty()) detail::collect(problems, [&] { require_knob(keys); });
 }
 
 const Block<KnobKeys> knob_block{

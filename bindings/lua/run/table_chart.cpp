@@ -37,11 +37,8 @@ void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& pro
   static const std::vector<std::string> keys = {"x", "y", "name"};
   const std::string place = "lines[" + std::to_string(k) + "]";
   if (value.is_unknown()) return;
-  if (!value.is_table()) {
-    problems.push_back(quoted(place) + " is " + value.describe() +
-                       "; give a table such as { y=0.4, name=\"measured\" }");
-    return;
-  }
+  if (!value.is_table())
+    return detail::wrong_type(value, place, "a table such as { y=0.4, name=\"measured\" }", problems);
   ReferenceLine line;
   bool unknown = false;
   value.each([&](const Argument& key, const Argument& given) {
@@ -54,8 +51,7 @@ void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& pro
     } else if (name == "name" && given.is_text()) {
       line.name = given.text();
     } else if (name == "name") {
-      if (!given.is_unknown())
-        problems.push_back(quoted(place + ".name") + " is " + given.describe() + "; give a string");
+      if (!given.is_unknown()) detail::wrong_type(given, place + ".name", "a string", problems);
     } else {
       problems.push_back(quoted(place) + " has the key " + (key.is_text() ? quoted(name) : key.describe()) +
                          did_you_mean(name, keys) + "; a line has x or y, and a name");
@@ -213,11 +209,8 @@ const Block<NotebookChart> notebook_chart_block = [] {
       "a second panel below, with the same keys but for `file`; `x` is that of the first unless given",
       [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
         if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
-        try {
-          c.below = std::make_shared<C>(below_block.read(value, quoted(info.name)));
-        } catch (const Error& error) {
-          problems.push_back(error.what());
-        }
+        detail::collect(problems,
+                        [&] { c.below = std::make_shared<C>(below_block.read(value, quoted(info.name))); });
       });
   below.info.inner = &below_block;
   keys.push_back(std::move(below));

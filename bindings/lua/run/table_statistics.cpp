@@ -133,16 +133,13 @@ void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& key
   if (!value.is_table() || value.length() == 0)
     return detail::wrong_type(value, info, "a whole number of bins, or a list of their edges", problems);
   value.elements([&](const Argument& edge) {
-    try {
-      if (edge.is_number())
-        keys.edges.emplace_back(edge.number());
-      else if (edge.is_text())
-        keys.edges.emplace_back(edge.text());
-      else if (!edge.is_unknown())
-        detail::wrong_type(edge, info, "an edge: a number or a quantity", problems);
-    } catch (const Error& error) {
-      problems.push_back(quoted(info.name) + ": " + error.what());
-    }
+    if (edge.is_number())
+      keys.edges.emplace_back(edge.number());
+    else if (edge.is_text())
+      detail::collect(
+          problems, [&] { keys.edges.emplace_back(edge.text()); }, info.name);
+    else if (!edge.is_unknown())
+      detail::wrong_type(edge, info, "an edge: a number or a quantity", problems);
   });
 }
 

@@ -184,16 +184,13 @@ void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::
 void read_expected(const Argument& value, const std::string& name, std::optional<ExpectedValue>& expected,
                    Problems& problems) {
   if (value.is_nil() || value.is_unknown()) return;
-  try {
-    if (value.is_number())
-      expected = value.number();
-    else if (value.is_text())
-      expected = ExpectedValue(value.text());
-    else
-      problems.push_back(quoted(name) + " is " + value.describe() + "; give a number or a quantity");
-  } catch (const Error& error) {
-    problems.push_back(quoted(name) + ": " + error.what());
-  }
+  if (value.is_number())
+    expected = value.number();
+  else if (value.is_text())
+    detail::collect(
+        problems, [&] { expected = ExpectedValue(value.text()); }, name);
+  else
+    detail::wrong_type(value, name, "a number or a quantity", problems);
 }
 
 const std::vector<Option<TableForm>>& table_form_keys() {

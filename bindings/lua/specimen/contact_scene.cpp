@@ -221,17 +221,8 @@ struct SceneKeys {
   AccuracyKeys accuracy;
 };
 
-template <class Act>
-void collect(Problems& problems, Act act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
-}
-
 void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems) {
-  collect(problems, [&] {
+  detail::collect(problems, [&] {
     if (value.is_table()) {
       keys.elasticity = elasticity_block().read(value, "`effects.elasticity`");
     } else if (value.is_text()) {
@@ -255,7 +246,7 @@ Option<SceneKeys> effect_option(const Effect& effect) {
       [&](const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
         if (!value.is_table())
           return detail::wrong_type(value, info, "a table of named keys, {} for its defaults", problems);
-        collect(problems, [&] { keys.effects.set(effect, block.read(value, quoted(info.name))); });
+        detail::collect(problems, [&] { keys.effects.set(effect, block.read(value, quoted(info.name))); });
       });
   option.info.inner = &block;
   return option;
@@ -288,7 +279,7 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
     return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);
   const std::vector<std::string> names = effects_named(value, "; write { elasticity=\"box\" }", problems);
   for (const std::string& name : names) {
-    collect(problems, [&] {
+    detail::collect(problems, [&] {
       (void)require_effect(name);
       for (const Option<SceneKeys>& option : effect_options())
         if (option.info.name == name)

@@ -40,23 +40,18 @@ Option<ReadProtocolKeys> reading(std::string name, std::optional<Quantity> ReadP
              std::move(name), "a load|a pressure", std::move(sentence),
              [member, signed_value](const Argument& value, const OptionInfo& info, ReadProtocolKeys& keys,
                                     Problems& problems) {
-               if (!value.is_number() && !value.is_text())
-                 return detail::wrong_type(value, info, "a load such as \"2 N\" or a pressure", problems);
-               try {
-                 const Quantity quantity = value.is_number() ? Quantity{value.number(), dimension::number}
-                                                             : parse_quantity(value.text());
-                 const Dimension d = quantity.dimension;
-                 if (d != dimension::number && d != dimension::force && d != dimension::pressure)
-                   problems.push_back(quoted(info.name) + " is " + asperity::describe(d) +
-                                      "; give a load such as \"2 N\" or a pressure such as \"0.1 MPa\"");
-                 else if (!std::isfinite(quantity.value) || (!signed_value && quantity.value < 0))
-                   problems.push_back(quoted(info.name) + " is " + format_short(quantity.value) +
-                                      "; give zero or more");
-                 else
-                   keys.*member = quantity;
-               } catch (const Error& error) {
-                 problems.push_back(quoted(info.name) + ": " + error.what());
-               }
+               const auto quantity = detail::read_any_quantity(
+                   value, info.name, "a load such as \"2 N\" or a pressure", problems);
+               if (!quantity) return;
+               const Dimension d = quantity->dimension;
+               if (d != dimension::number && d != dimension::force && d != dimension::pressure)
+                 problems.push_back(quoted(info.name) + " is " + asperity::describe(d) +
+                                    "; give a load such as \"2 N\" or a pressure such as \"0.1 MPa\"");
+               else if (!std::isfinite(quantity->value) || (!signed_value && quantity->value < 0))
+                 problems.push_back(quoted(info.name) + " is " + format_short(quantity->value) +
+                                    "; give zero or more");
+               else
+                 keys.*member = quantity;
              })
       .shown_by([member](const ReadProtocolKeys& keys) {
         return keys.*member ? format_exact((keys.*member)->value) : std::string();

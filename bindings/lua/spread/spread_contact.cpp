@@ -67,13 +67,10 @@ void spread_read_effects(const Argument& value, const OptionInfo& info, spread_S
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"half_space\" }", problems);
   const std::vector<std::string> names = effects_named(value, "", problems);
-  for (const std::string& name : names) {
-    try {
+  for (const std::string& name : names)
+    detail::collect(problems, [&] {
       with_key(value, name, [&](const Argument& given) { read_effect(name, given, keys, problems); });
-    } catch (const Error& error) {
-      problems.push_back(error.what());
-    }
-  }
+    });
   if (std::find(names.begin(), names.end(), elasticity_effect) == names.end())
     problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\"");
 }

@@ -24,17 +24,9 @@ namespace {
 
 // On failure adds a problem and returns nothing.
 std::optional<Quantity> quantity_of(const Argument& value, const std::string& path, Problems& problems) {
-  if (value.is_number()) return Quantity{value.number(), dimension::number};
-  if (value.is_text()) {
-    try {
-      return parse_quantity(value.text());
-    } catch (const Error& error) {
-      problems.push_back(quoted(path) + ": " + error.what());
-      return {};
-    }
-  }
-  problems.push_back(quoted(path) + (value.is_nil() ? " is missing" : " is " + value.describe()) +
-                     "; give a number or a quantity such as \"1.1 GPa\"");
+  constexpr std::string_view wanted = "a number or a quantity such as \"1.1 GPa\"";
+  if (!value.is_nil()) return detail::read_any_quantity(value, path, wanted, problems);
+  problems.push_back(quoted(path) + " is missing; give " + std::string(wanted));
   return {};
 }
 
@@ -44,8 +36,7 @@ InputShape read_shape(const Argument& given, const std::string& place, Problems&
   const auto shapes = input_shapes().first(4);
   const auto found = std::ranges::find(shapes, given.is_text() ? given.text() : "");
   if (found == shapes.end())
-    problems.push_back(quoted(place) + " is " + given.describe() +
-                       "; give \"normal\", \"uniform\", \"lognormal\" or \"triangular\"");
+    detail::wrong_type(given, place, "\"normal\", \"uniform\", \"lognormal\" or \"triangular\"", problems);
   return static_cast<InputShape>(found - shapes.begin());
 }
 
@@ -176,8 +167,7 @@ void read_sweep(const std::string& name, const std::string& path, const Argument
     if (auto read = knob_value(item, unknown))
       knob.values.push_back(*std::move(read));
     else
-      problems.push_back(quoted(place) + " is " + item.describe() + "; give " + knob_kinds +
-                         ", and convert it inside `ask`");
+      detail::wrong_type(item, place, std::string(knob_kinds) + ", and convert it inside `ask`", problems);
   };
   if (!value.is_table()) {
     take(value, path);

@@ -35,25 +35,16 @@ struct CalibrateKeys : CalibrationKeys {
 // In SI, or the first quantity's dimension.
 std::optional<double> parameter_number(const Argument& value, const std::string& key,
                                        std::optional<Dimension>& dimension, Problems& problems) {
-  if (value.is_number()) return value.number();
-  if (!value.is_text()) {
-    if (!value.is_unknown())
-      problems.push_back(quoted(key) + " is " + value.describe() + "; give a number or a quantity");
+  const auto quantity = detail::read_any_quantity(value, key, "a number or a quantity", problems);
+  if (!quantity) return {};
+  if (value.is_number()) return quantity->value;
+  if (dimension && !(*dimension == quantity->dimension)) {
+    problems.push_back(quoted(key) + " is " + describe(quantity->dimension) +
+                       ", and another value of the parameter is " + describe(*dimension));
     return {};
   }
-  try {
-    const Quantity quantity = parse_quantity(value.text());
-    if (dimension && !(*dimension == quantity.dimension)) {
-      problems.push_back(quoted(key) + " is " + describe(quantity.dimension) +
-                         ", and another value of the parameter is " + describe(*dimension));
-      return {};
-    }
-    dimension = quantity.dimension;
-    return quantity.value;
-  } catch (const Error& error) {
-    problems.push_back(quoted(key) + ": " + error.what());
-    return {};
-  }
+  dimension = quantity->dimension;
+  return quantity->value;
 }
 
 struct NamedParameter {

@@ -21,11 +21,9 @@ struct StudyKeys : StudyRequest {
 };
 
 void read_way(const Argument& table, const std::string& path, StudyKeys& keys, Problems& problems) {
-  if (!table.is_table()) {
-    problems.push_back(quoted(path) + " is " + table.describe() +
-                       "; give a way such as { name=\"finer grid\", cells={128, 256} }");
-    return;
-  }
+  if (!table.is_table())
+    return detail::wrong_type(table, path, "a way such as { name=\"finer grid\", cells={128, 256} }",
+                              problems);
   std::string name;
   std::vector<KnobSweep> knobs;
   table.each([&](const Argument& key, const Argument& value) {
@@ -37,7 +35,7 @@ void read_way(const Argument& table, const std::string& path, StudyKeys& keys, P
     } else if (value.is_text() && !value.text().empty()) {
       name = value.text();
     } else {
-      problems.push_back(quoted(path + ".name") + " is " + value.describe() + "; give the way's name");
+      detail::wrong_type(value, path + ".name", "the way's name", problems);
       name = "?";
     }
   });
@@ -46,11 +44,7 @@ void read_way(const Argument& table, const std::string& path, StudyKeys& keys, P
     return;
   }
   if (!problems.empty()) return;
-  try {
-    keys.ways.push_back(make_way(std::move(name), std::move(knobs)));
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
+  detail::collect(problems, [&] { keys.ways.push_back(make_way(std::move(name), std::move(knobs))); });
 }
 
 void read_ways(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
@@ -66,30 +60,22 @@ void read_ways(const Argument& value, const OptionInfo& info, StudyKeys& keys, P
 }
 
 void read_truth(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
-  if (value.is_number()) {
-    keys.truth = value.number();
-  } else if (value.is_text()) {
-    try {
-      keys.truth = parse_quantity(value.text()).value;
-    } catch (const Error& error) {
-      problems.push_back(quoted(info.name) + ": " + error.what());
-    }
-  } else if (value.is_table()) {
+  if (value.is_table()) {
     Knobs knobs;
     value.each([&](const Argument& key, const Argument& item) {
       const auto read = knob_value(item, keys.unknown);
       if (!key.is_text())
         problems.push_back(quoted(info.name) + " holds a value without a key; write `knob = value`");
       else if (!read)
-        problems.push_back(quoted(info.name + "." + std::string(key.text())) + " is " + item.describe() +
-                           "; give " + knob_kinds);
+        detail::wrong_type(item, info.name + "." + std::string(key.text()), knob_kinds, problems);
       else
         knobs.push_back({std::string(key.text()), *read});
     });
     sort_knobs(knobs);
     keys.truth = std::move(knobs);
-  } else {
-    detail::wrong_type(value, info, "the exact value, or a table of the knobs of a finer setting", problems);
+  } else if (const auto exact = detail::read_any_quantity(
+                 value, info.name, "the exact value, or a table of the knobs of a finer setting", problems)) {
+    keys.truth = exact->value;
   }
 }
 
