@@ -314,12 +314,6 @@ RowBlock::RowBlock(std::span<const OptionRow> rows, std::any defaults)
   for (const OptionRow& row : rows_) infos_.push_back(row_info(row, defaults_));
 }
 
-std::vector<const OptionInfo*> RowBlock::options() const {
-  std::vector<const OptionInfo*> infos;
-  for (const OptionInfo& info : infos_) infos.push_back(&info);
-  return infos;
-}
-
 std::any RowBlock::read(const Argument& table, const std::string& caller) const {
   std::any result = defaults_;
   detail::read_table(

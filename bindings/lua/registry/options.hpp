@@ -51,6 +51,12 @@ class BlockInfo {
   virtual void check(const Argument& table, const std::string& caller) const = 0;
 };
 
+inline std::vector<const OptionInfo*> pointers_to(const std::vector<OptionInfo>& infos) {
+  std::vector<const OptionInfo*> pointers;
+  for (const OptionInfo& info : infos) pointers.push_back(&info);
+  return pointers;
+}
+
 using Resolved = std::vector<std::pair<std::string, std::string>>;
 
 using Problems = std::vector<std::string>;
@@ -213,6 +219,14 @@ Option<O> custom(std::string name, std::string type, std::string sentence, Read 
   option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
   option.read = std::move(read);
   return option;
+}
+
+// `read` takes the member in place of the struct.
+template <class O, class M, class Read>
+Option<O> custom(std::string name, std::string type, std::string sentence, M O::*member, Read read) {
+  return custom<O>(std::move(name), std::move(type), std::move(sentence),
+                   [member, read](const Argument& value, const OptionInfo& info, O& options,
+                                  Problems& problems) { read(value, info, options.*member, problems); });
 }
 
 // A plain number for dimension::number. Member: double or optional<double>.
@@ -439,7 +453,7 @@ class RowBlock final : public BlockInfo {
   // `rows` must outlive the block. `defaults`: the struct without options.
   RowBlock(std::span<const OptionRow> rows, std::any defaults);
 
-  std::vector<const OptionInfo*> options() const override;
+  std::vector<const OptionInfo*> options() const override { return pointers_to(infos_); }
   std::any read(const Argument& table, const std::string& caller) const;
   void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
 

@@ -200,9 +200,7 @@ const std::vector<Option<TableForm>>& table_form_keys() {
           "columns", "table",
           "own names of columns, each with its head in the file, as in { load=\"Kraft\" }; where two heads "
           "differ in their units alone, with the unit. Or a list: the heads of a file that has none",
-          [](const Argument& value, const OptionInfo& info, F& form, Problems& problems) {
-            read_columns(value, info, form, problems);
-          }),
+          read_columns),
       integer("skip", &F::skip, at_least(0), "lines above the heads that are left out"),
       custom<F>("unit", "table",
                 "units of columns that the file says none for, or others than it says: { load=\"kN\" }; "

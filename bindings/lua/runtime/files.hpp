@@ -74,11 +74,8 @@ Option<O> channel_key(std::string O::*member) {
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
 template <class O>
 Option<O> fill_key(HoleFill O::*member) {
-  return custom<O>("fill", "\"interpolate\"|a length",
-                   "value of unmeasured points; without it they stay missing",
-                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-                     read_fill(value, info, options.*member, problems);
-                   });
+  return custom("fill", "\"interpolate\"|a length",
+                "value of unmeasured points; without it they stay missing", member, read_fill);
 }
 
 }  // namespace asperity::lua

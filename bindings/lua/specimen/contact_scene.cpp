@@ -36,11 +36,7 @@ class ElasticityBlock final : public BlockInfo {
       }
   }
 
-  std::vector<const OptionInfo*> options() const override {
-    std::vector<const OptionInfo*> all;
-    for (const OptionInfo& info : infos_) all.push_back(&info);
-    return all;
-  }
+  std::vector<const OptionInfo*> options() const override { return pointers_to(infos_); }
   Elasticity read(const Argument& table, const std::string& caller) const {
     const ElasticModel* model = nullptr;
     std::any options;
@@ -221,7 +217,7 @@ struct SceneKeys {
   AccuracyKeys accuracy;
 };
 
-void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems) {
+void read_elasticity(const Argument& value, const OptionInfo&, SceneKeys& keys, Problems& problems) {
   detail::collect(problems, [&] {
     if (value.is_table()) {
       keys.elasticity = elasticity_block().read(value, "`effects.elasticity`");
@@ -258,11 +254,8 @@ const std::vector<Option<SceneKeys>>& effect_options() {
     std::string type;
     for (const ElasticModel* model : elastic_models())
       if (!needs_options(*model)) type += "\"" + std::string(model->name) + "\"|";
-    Option<K> elasticity =
-        custom<K>(std::string(elasticity_effect), type + "table", "elastic deformation of the bodies",
-                  [](const Argument& value, const OptionInfo&, K& keys, Problems& problems) {
-                    read_elasticity(value, keys, problems);
-                  });
+    Option<K> elasticity = custom<K>(std::string(elasticity_effect), type + "table",
+                                     "elastic deformation of the bodies", read_elasticity);
     elasticity.info.inner = &elasticity_block();
     elasticity.info.required = true;
     std::vector<Option<K>> all{std::move(elasticity)};

@@ -193,11 +193,7 @@ class EventReader {
 
 class ProtocolKeys final : public BlockInfo {
  public:
-  std::vector<const OptionInfo*> options() const override {
-    std::vector<const OptionInfo*> all;
-    for (const OptionInfo& info : infos()) all.push_back(&info);
-    return all;
-  }
+  std::vector<const OptionInfo*> options() const override { return pointers_to(infos()); }
   bool is_list() const override { return true; }
   void check(const Argument& list, const std::string& caller) const override { read_protocol(list, caller); }
 };
