@@ -27,12 +27,7 @@ constexpr const char* chunk_name = "=prompt";
 int keep_action(lua_State* L) {
   lua_newtable(L);
   lua_pushglobaltable(L);
-  lua_pushnil(L);
-  while (lua_next(L, -2) != 0) {
-    lua_pushvalue(L, -2);
-    lua_insert(L, -2);
-    lua_rawset(L, -5);
-  }
+  copy_entries(L, 2, 1);
   lua_pop(L, 1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &kept_key);
   return 0;
@@ -52,12 +47,7 @@ int restore_action(lua_State* L) {
     }
     lua_pop(L, 1);
   }
-  lua_pushnil(L);
-  while (lua_next(L, 1) != 0) {
-    lua_pushvalue(L, -2);
-    lua_insert(L, -2);
-    lua_rawset(L, 2);
-  }
+  copy_entries(L, 1, 2);
   return 0;
 }
 

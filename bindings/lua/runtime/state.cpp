@@ -133,32 +133,22 @@ int input_path(lua_State* L) {
 }
 
 // host.unknown_global(name, _G) -> message
-int unknown_global_body(lua_State* L) {
-  std::string message;
-  try {
-    const Argument name(L, 1);
+int unknown_global(lua_State* L) {
+  const int results = give_text(L, [L](const Session& session, const std::string& given) {
+    const std::string name = Argument(L, 1).is_text() ? given.substr(0, 60) : "?";
+    if (session.left_behind != nullptr && session.left_behind->contains(name))
+      return "the global " + quoted(name) + " stays with the script: " + session.left_behind->at(name) +
+             "; make it inside `run`, or use it on the rows that come back";
     std::vector<std::string> names;
     Argument(L, 2).each([&](const Argument& key, const Argument&) {
       if (key.is_text()) names.emplace_back(key.text());
     });
-    const std::string shown(name.is_text() ? name.text().substr(0, 60) : std::string_view("?"));
-    message = "the global " + quoted(shown) + " was never set";
-    message += shown == "lab" ? "; a script begins with local lab = require \"asperity\""
-                              : did_you_mean(shown, names);
-    if (const auto* stayed = Session::of(L).left_behind; stayed != nullptr && stayed->contains(shown))
-      message = "the global " + quoted(shown) + " stays with the script: " + stayed->at(shown) +
-                "; make it inside `run`, or use it on the rows that come back";
-  } catch (const std::exception& error) {
-    message = error.what();
-  }
-  auto action = [&](lua_State* state) {
-    lua_pushlstring(state, message.data(), message.size());
-    return 1;
-  };
-  return protect(L, 0, 1, action) == LUA_OK ? 1 : -1;
+    return "the global " + quoted(name) + " was never set" +
+           (name == "lab" ? "; a script begins with local lab = require \"asperity\""
+                          : did_you_mean(name, names));
+  });
+  return results < 0 ? lua_error(L) : 1;
 }
-
-int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
 // host.mistaken(message) -> true and a placeholder after a noted mistake, else false
 int mistaken(lua_State* L) {
@@ -177,11 +167,9 @@ const char* exit_body(lua_State* L, int code) {
     return "this function cannot end the run: other ranks wait for its result; raise an error in it";
   try {
     if (session.exit_hook) session.exit_hook(code);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::interrupted) return "interrupted";
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    if (code == 0) code = 1;
   } catch (const std::exception& error) {
+    const auto* own = dynamic_cast<const Error*>(&error);
+    if (own != nullptr && own->code() == ErrorCode::interrupted) return "interrupted";
     std::fprintf(stderr, "asperity: %s\n", error.what());
     if (code == 0) code = 1;
   }
