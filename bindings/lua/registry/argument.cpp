@@ -75,30 +75,15 @@ bool Argument::is_list() const {
 }
 
 std::string Argument::describe() const {
-  switch (lua_type(L, index_)) {
-    case LUA_TNONE:
-    case LUA_TNIL:
-      return "nothing (nil)";
-    case LUA_TBOOLEAN:
-      return boolean() ? "the boolean true" : "the boolean false";
-    case LUA_TNUMBER:
-      return "the number " + format_short(number(), 10);
-    case LUA_TSTRING: {
-      std::string shown(text().substr(0, 40));
-      if (text().size() > 40) shown += "…";
-      return "the string \"" + shown + "\"";
-    }
-    case LUA_TTABLE: {
-      if (!is_list()) return "a table";
-      return length() == 0 ? "an empty table" : "a list of " + std::to_string(length());
-    }
-    case LUA_TFUNCTION:
-      return "a function";
-    case LUA_TTHREAD:
-      return "a coroutine";
-    default:
-      break;
-  }
+  if (is_nil()) return "nothing (nil)";
+  if (is_boolean()) return boolean() ? "the boolean true" : "the boolean false";
+  if (is_number()) return "the number " + format_short(number(), 10);
+  if (is_text())
+    return "the string \"" + std::string(text().substr(0, 40)) + (text().size() > 40 ? "…\"" : "\"");
+  if (is_table() && !is_list()) return "a table";
+  if (is_table()) return length() == 0 ? "an empty table" : "a list of " + std::to_string(length());
+  if (is_function()) return "a function";
+  if (lua_isthread(L, index_)) return "a coroutine";
   if (const Object* object = as_any_object()) return object->type->article_name;
   const std::shared_ptr<Record> record = record_at(L, index_);
   return record != nullptr ? "a result (" + record->name + ")" : "a userdata";
