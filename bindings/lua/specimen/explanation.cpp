@@ -18,10 +18,6 @@
 namespace asperity::lua {
 
 namespace {
-std::string times_text(std::int64_t times) {
-  return std::to_string(times) + (times == 1 ? " time" : " times");
-}
-
 // Null if unknown.
 const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   const auto contact_at = [&](int k) -> const SpecimenPair* {
@@ -148,7 +144,7 @@ Explanation::Repeating::~Repeating() {
 std::string Explanation::text() const {
   std::string unplanned;
   for (const auto& [what, count] : unplanned_)
-    unplanned += what + ": " + times_text(count) +
+    unplanned += what + ": " + counted(static_cast<std::size_t>(count), "time") +
                  ", of a contact that is not known before the run or lies over ranks: no plan\n";
   if (planned_.empty()) return unplanned.empty() ? "no contact is pressed\n" : unplanned;
   std::string result;
@@ -158,7 +154,7 @@ std::string Explanation::text() const {
     result += planned.text;
     for (const Calls& calls : planned.calls) {
       solves += calls.times;
-      result += "  " + calls.what + ": " + times_text(calls.times);
+      result += "  " + calls.what + ": " + counted(static_cast<std::size_t>(calls.times), "time");
       const std::string least = format_short(calls.least, 3), most = format_short(calls.most, 3);
       if (calls.by && calls.most > 0)
         result += " by " + quoted(name(*calls.by)) + ", " + (least == most ? most : least + " to " + most) +

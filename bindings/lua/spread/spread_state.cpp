@@ -102,7 +102,7 @@ Values spread_state_write(Call& call) {
 
 std::string describe_spread_state(const SpreadState& s) {
   const SlabContactAnswer& a = *s.answer;
-  return "state over " + std::to_string(s.ranks) + (s.ranks == 1 ? " rank" : " ranks") + ": pressure " +
+  return "state over " + counted(static_cast<std::size_t>(s.ranks), "rank") + ": pressure " +
          format_quantity(a.mean_pressure, dimension::pressure) + ", approach " +
          format_quantity(a.approach, dimension::length) + ", area fraction " +
          format_short(static_cast<double>(a.contacts) / s.surface.slab.all_nodes()) +
