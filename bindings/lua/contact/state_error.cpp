@@ -70,13 +70,6 @@ std::string describe_bounds(const StateBounds& of) {
          std::to_string(e.contact_bracket.high) + " of " + std::to_string(e.nodes);
 }
 
-std::string describe_errors(const StateError& of) {
-  const auto& state = of.state;
-  const DiscretisationError grid{state};
-  const StateBounds of_state{state};
-  return describe_bounds(of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
-}
-
 }  // namespace
 
 template <>
@@ -193,7 +186,12 @@ template <>
 Class make_class<StateError>() {
   Class c{"StateError", "the error of a state",
           "Errors of a state by source; the sources are never combined. A part is found when it is read."};
-  c.describe = text_of<describe_errors>;
+  c.describe = from_value([](const StateError& of) -> std::string {
+    const auto& state = of.state;
+    const DiscretisationError grid{state};
+    const StateBounds of_state{state};
+    return describe_bounds(of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
+  });
   c.fields = {
       getter<StateError>("algebraic", "AlgebraicError", "bounds against the exact solution on the same grid",
                          [](const StateError& of) {

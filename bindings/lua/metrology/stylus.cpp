@@ -60,12 +60,6 @@ Values scan(Call& call) {
   return {std::move(traces)};
 }
 
-std::string describe_stylus(const Stylus& s) {
-  return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +
-         std::to_string(s.samples()) + " samples every " + format_quantity(s.spacing(), dimension::length) +
-         (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
-}
-
 }  // namespace
 
 Function stylus_function() {
@@ -82,7 +76,11 @@ Function stylus_function() {
 template <>
 Class make_class<Stylus>() {
   Class c{"Stylus", "a stylus", "A stylus profiler; an immutable value."};
-  c.describe = text_of<describe_stylus>;
+  c.describe = from_value([](const Stylus& s) -> std::string {
+    return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +
+           std::to_string(s.samples()) + " samples every " + format_quantity(s.spacing(), dimension::length) +
+           (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
+  });
   c.equal = have_one_digest<Stylus>;
   c.digest = text_of<&Stylus::digest>;
   c.fields = {

@@ -97,12 +97,6 @@ Values units(Call& call) {
   return {};
 }
 
-std::string describe_notebook(const Notebook& book) {
-  Table table = book.table();
-  table.rename("notebook \"" + book.name() + "\"");
-  return table_text(table);
-}
-
 }  // namespace
 
 // A name absent from the script's text is computed and may vary.
@@ -145,7 +139,11 @@ Class make_class<Notebook>() {
       "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows "
       "written so far."};
   c.shareable = false;
-  c.describe = text_of<describe_notebook>;
+  c.describe = from_value([](const Notebook& book) -> std::string {
+    Table table = book.table();
+    table.rename("notebook \"" + book.name() + "\"");
+    return table_text(table);
+  });
   c.fields = {
       getter<&Notebook::name>("name", "string", "of the notebook"),
       getter<Notebook>("file", "string", "where its rows are kept",

@@ -80,11 +80,6 @@ Rows table_given(const Call& call, int k, const char* name) {
   throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give a table or a notebook");
 }
 
-Values join_tables(Call& call) {
-  const Join join = call.options(join_block, 2);
-  return {object(joined(*table_of_self(call), table_given(call, 1, "other"), join))};
-}
-
 Map units_of(const Rows& table) {
   Map units;
   for (const TableColumn& column : table.columns())
@@ -176,7 +171,10 @@ std::vector<Function> table_methods() {
        .example = "local mu = book:column \"mu\"",
        .unknown_when_dry = true},
       {.name = "joined",
-       .body = join_tables,
+       .body = [](Call& call) -> Values {
+         const Join join = call.options(join_block, 2);
+         return {object(joined(*table_of_self(call), table_given(call, 1, "other"), join))};
+       },
        .sentence = "Joins each row to the rows of another table or notebook with equal values in the "
                    "columns `by`: for example, measured numbers to computed ones.",
        .parameters = {{"other", "Table|Notebook", "the other table"}},

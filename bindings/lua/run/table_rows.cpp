@@ -23,8 +23,6 @@ std::string name_of_self(const Call& call) {
   return book != nullptr ? book->name() : table_of_self(call)->name();
 }
 
-Values all_rows(Call& call) { return {rows_of_table(*table_of_self(call))}; }
-
 Values each_row(Call& call) {
   const auto table = table_of_self(call);
   auto next = std::make_shared<std::size_t>(0);
@@ -207,7 +205,7 @@ Function reduction(const std::string& name, Body body, const char* sentence) {
 std::vector<Function> row_methods() {
   return {
       {.name = "rows",
-       .body = all_rows,
+       .body = [](Call& call) -> Values { return {rows_of_table(*table_of_self(call))}; },
        .sentence = "All rows as tables, numbers in SI; an empty cell is nil.",
        .returns = "table[]",
        .example = "for _, row in ipairs(book:rows()) do print(row.N, row.mu) end"},

@@ -16,8 +16,6 @@ namespace asperity::lua {
 
 namespace {
 
-Values make_contact(Call& call) { return {object(SpecimenPair(read_scene(call)))}; }
-
 constexpr struct {
   const char* key;
   PressBy by;
@@ -139,13 +137,6 @@ Values close(Call& call) {
   return {};
 }
 
-std::string describe_contact(const SpecimenPair& pair) {
-  return "contact: " + pair.plan().title + (pair.under_load() ? ", under load" : "");
-}
-std::string digest_of_contact(const SpecimenPair& pair) {
-  return pair.lower().digest() + "+" + (pair.upper_is_flat() ? std::string("flat") : pair.upper().digest());
-}
-
 }  // namespace
 
 const Block<PressKeys> press_block = [] {
@@ -226,7 +217,7 @@ const Block<ShiftKeys> shift_block{
 
 Function contact_function() {
   return {.name = "contact",
-          .body = make_contact,
+          .body = [](Call& call) -> Values { return {object(SpecimenPair(read_scene(call)))}; },
           .sentence = "Puts two bodies on the bench. Only the effects that are named are computed.",
           .options = &scene_keys(),
           .returns = "Contact",
@@ -241,8 +232,12 @@ Class make_class<SpecimenPair>() {
           "Two specimens on the bench, the placement of the upper on the lower, and the scene: the only "
           "value that changes."};
   c.shareable = false;
-  c.describe = text_of<describe_contact>;
-  c.digest = text_of<digest_of_contact>;
+  c.describe = from_value([](const SpecimenPair& pair) -> std::string {
+    return "contact: " + pair.plan().title + (pair.under_load() ? ", under load" : "");
+  });
+  c.digest = from_value([](const SpecimenPair& pair) -> std::string {
+    return pair.lower().digest() + "+" + (pair.upper_is_flat() ? std::string("flat") : pair.upper().digest());
+  });
   c.closing = close_states;
   c.methods = {
       {.name = "press",

@@ -19,11 +19,6 @@ namespace asperity::lua {
 
 namespace {
 
-Values make_protocol(Call& call) {
-  const auto protocol = read_protocol(call.argument(1), call.function_name());
-  return {protocol ? object(*protocol) : Value(Object{&class_of<Protocol>(), nullptr, false})};
-}
-
 struct NumberedEvent {
   const Protocol* protocol = nullptr;
   std::size_t k = 0;
@@ -214,10 +209,6 @@ Values write_protocol(Call& call) {
   return {path};
 }
 
-std::string describe_protocol(const Protocol& protocol) {
-  return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
-}
-
 }  // namespace
 
 Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
@@ -229,7 +220,9 @@ Class make_class<Protocol>() {
           "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
           "the number of events."};
   c.length = from_value([](const Protocol& of) { return static_cast<std::int64_t>(of.count()); });
-  c.describe = text_of<describe_protocol>;
+  c.describe = from_value([](const Protocol& protocol) -> std::string {
+    return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
+  });
   c.native_bytes = from_value([](const Protocol& of) { return of.count() * sizeof(Protocol::Event); });
   c.equal = have_one_digest<Protocol>;
   c.digest = text_of<&Protocol::digest>;
@@ -296,14 +289,18 @@ Class make_class<Protocol>() {
 Module protocol_module() {
   Module m{"lab.protocol", "Loading protocols: the events of a contact, from tables or press logs."};
   m.functions = {protocol_read_function()};
-  m.call = Function{.name = "protocol",
-                    .body = make_protocol,
-                    .sentence = "A protocol from a list of events: tables with one key each.",
-                    .options = &protocol_keys(),
-                    .returns = "Protocol",
-                    .example =
-                        "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
-                        "min\" } }, { release=true }, { place={ seed=1 } } }"};
+  m.call =
+      Function{.name = "protocol",
+               .body = [](Call& call) -> Values {
+                 const auto protocol = read_protocol(call.argument(1), call.function_name());
+                 return {protocol ? object(*protocol) : Value(Object{&class_of<Protocol>(), nullptr, false})};
+               },
+               .sentence = "A protocol from a list of events: tables with one key each.",
+               .options = &protocol_keys(),
+               .returns = "Protocol",
+               .example =
+                   "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
+                   "min\" } }, { release=true }, { place={ seed=1 } } }"};
   return m;
 }
 

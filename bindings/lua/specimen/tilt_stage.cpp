@@ -162,11 +162,6 @@ Values raise_stage(Call& call) {
   return {tilt_type(raise(*stage.contact, *stage.law, options, call.session().monitor()))};
 }
 
-std::string describe_stage(const TiltStage& stage) {
-  return "tilt stage: mass " + format_quantity(stage.options.stage.mass, dimension::mass) + ", " +
-         stage.law->text();
-}
-
 }  // namespace
 
 Function tilt_stage_function() {
@@ -183,7 +178,10 @@ template <>
 Class make_class<TiltStage>() {
   Class c{"TiltStage", "a tilt stage", "A tilt stage with a specimen on it."};
   c.shareable = false;
-  c.describe = text_of<describe_stage>;
+  c.describe = from_value([](const TiltStage& stage) -> std::string {
+    return "tilt stage: mass " + format_quantity(stage.options.stage.mass, dimension::mass) + ", " +
+           stage.law->text();
+  });
   c.methods = {
       {.name = "raise",
        .body = raise_stage,

@@ -201,12 +201,6 @@ Values spread_press(Call& call) {
   return {object(std::move(state))};
 }
 
-std::string describe_spread_contact(const SpreadContact& of) {
-  const auto& s = of.problem.surface;
-  return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
-         std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
-}
-
 }  // namespace
 
 SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const SpreadRequest& request,
@@ -233,7 +227,11 @@ Class make_class<SpreadContact>() {
   Class c{"SpreadContact", "a contact over ranks",
           "A surface in slabs under a flat, ready to be pressed by all ranks together."};
   c.shareable = false;
-  c.describe = text_of<describe_spread_contact>;
+  c.describe = from_value([](const SpreadContact& of) -> std::string {
+    const auto& s = of.problem.surface;
+    return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
+           std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
+  });
   c.digest = from_value([](const SpreadContact& of) { return of.problem.surface.digest; });
   c.methods = {{.name = "press",
                 .body = spread_press,

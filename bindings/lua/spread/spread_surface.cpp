@@ -88,12 +88,6 @@ Values spread_write(Call& call) {
   return {path};
 }
 
-std::string spread_describe(const SlabSurface& s) {
-  return "surface of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
-         std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks") + ", rms height " +
-         format_quantity(s.rms, dimension::length);
-}
-
 }  // namespace
 
 Team& team_of(const Call& call) {
@@ -158,7 +152,11 @@ Class make_class<SlabSurface>() {
   using S = SlabSurface;
   Class c{"SpreadSurface", "a surface over ranks", "A rough surface; each rank holds some rows."};
   c.shareable = false;
-  c.describe = text_of<spread_describe>;
+  c.describe = from_value([](const SlabSurface& s) -> std::string {
+    return "surface of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
+           std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks") + ", rms height " +
+           format_quantity(s.rms, dimension::length);
+  });
   c.native_bytes = from_value([](const SlabSurface& of) { return of.heights->size() * sizeof(double); });
   c.digest = text_of<&SlabSurface::digest>;
   c.fields = {

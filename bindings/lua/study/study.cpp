@@ -77,9 +77,6 @@ Values cheapest_setting(Call& call) {
 }
 
 std::string describe_study(const void* self) { return study_text(static_cast<const Study*>(self)->result); }
-std::string describe_choice(const StudyChoice& choice) {
-  return lua_source(choice.study->result.knobs_of(choice.found()));
-}
 
 }  // namespace
 
@@ -177,7 +174,9 @@ template <>
 Class make_class<StudyChoice>() {
   Class c{"StudyChoice", "a setting of a study",
           "A setting that a study chose. print() shows its knobs as Lua source, to be pasted."};
-  c.describe = text_of<describe_choice>;
+  c.describe = from_value([](const StudyChoice& choice) -> std::string {
+    return lua_source(choice.study->result.knobs_of(choice.found()));
+  });
   c.fields = {
       getter<StudyChoice>(
           "knobs", "table", "its knobs, as `ask` was given them",

@@ -274,18 +274,11 @@ Values reliability_of(Call& call) {
 }
 
 using RatioCurve = MaterialRatioCurve;
-std::string describe_curve(const RatioCurve& curve) {
-  return "material ratio curve of " + std::to_string(curve.measured()) + " heights";
-}
 
 double correlation_at(const Autocorrelation& f, const Call& call) {
   const double i = call.number(1, "i"), j = call.number(2, "j");
   if (i != std::floor(i) || j != std::floor(j)) refuse("a lag is not whole cells", "give whole numbers");
   return f(static_cast<int>(i), static_cast<int>(j));
-}
-std::string describe_correlation(const Autocorrelation& f) {
-  return "autocorrelation to lags of " + std::to_string(f.lags_x()) + " x " + std::to_string(f.lags_y()) +
-         " cells";
 }
 
 }  // namespace
@@ -358,7 +351,9 @@ template <>
 Class make_class<MaterialRatioCurve>() {
   Class c{"MaterialRatioCurve", "a material ratio curve",
           "Share of the points above each height; heights count from the mean, ratios from 0 to 1."};
-  c.describe = text_of<describe_curve>;
+  c.describe = from_value([](const RatioCurve& curve) -> std::string {
+    return "material ratio curve of " + std::to_string(curve.measured()) + " heights";
+  });
   c.native_bytes = from_value([](const RatioCurve& curve) { return curve.measured() * sizeof(double); });
   c.fields = {
       getter<&RatioCurve::measured>("measured", "integer", "points that were measured"),
@@ -403,7 +398,10 @@ template <>
 Class make_class<Autocorrelation>() {
   Class c{"Autocorrelation", "an autocorrelation",
           "The autocorrelation of a surface at lags of whole cells, 1 at the origin."};
-  c.describe = text_of<describe_correlation>;
+  c.describe = from_value([](const Autocorrelation& f) -> std::string {
+    return "autocorrelation to lags of " + std::to_string(f.lags_x()) + " x " + std::to_string(f.lags_y()) +
+           " cells";
+  });
   c.native_bytes = from_value([](const Autocorrelation& f) {
     return (2 * static_cast<std::size_t>(f.lags_x()) + 1) * (static_cast<std::size_t>(f.lags_y()) + 1) *
            sizeof(double);

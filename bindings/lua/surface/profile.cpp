@@ -73,12 +73,6 @@ const Block<ReadProfileOptions> read_profile_block{
      fill_key(&ReadProfileOptions::fill), format_key(&ReadProfileOptions::format),
      channel_key(&ReadProfileOptions::channel)}};
 
-std::string describe_profile(const Profile& p) {
-  return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
-         format_quantity(p.length(), dimension::length) + " long, peak to valley " +
-         format_quantity(p.height_range().span(), dimension::length) +
-         missing_text(p.measured(), static_cast<std::size_t>(p.size()));
-}
 }  // namespace
 
 // data table
@@ -86,7 +80,12 @@ template <>
 Class make_class<Profile>() {
   Class c{"Profile", "a profile",
           "Heights at equal spacing along a line, or once around a closed outline; an immutable value."};
-  c.describe = text_of<describe_profile>;
+  c.describe = from_value([](const Profile& p) -> std::string {
+    return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
+           format_quantity(p.length(), dimension::length) + " long, peak to valley " +
+           format_quantity(p.height_range().span(), dimension::length) +
+           missing_text(p.measured(), static_cast<std::size_t>(p.size()));
+  });
   c.native_bytes = from_value([](const Profile& p) { return p.measured_heights().size_bytes(); });
   c.equal = have_one_digest<Profile>;
   c.digest = text_of<&Profile::digest>;
