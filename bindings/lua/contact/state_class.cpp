@@ -4,16 +4,13 @@
 #include <algorithm>
 
 #include "bindings/lua/registry/record.hpp"
-#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "bindings/lua/surface/surface.hpp"
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/contact/regions.hpp"
-#include "engine/contact/state.hpp"
 #include "engine/surface/io/hdf5_surface.hpp"
 
 namespace asperity::lua {
@@ -129,8 +126,7 @@ std::vector<RecordField<Certificate>> certificate_fields() {
 }
 
 // data table
-template <>
-Class make_class<asperity::State>() {
+Class make_class(For<asperity::State>) {
   using S = Contacting;
   Class c{"State", "a state",
           "A contact under load: an immutable value whose fields are computed when they are first read."};

@@ -72,8 +72,7 @@ std::string describe_bounds(const StateBounds& of) {
 
 }  // namespace
 
-template <>
-Class make_class<DiscretisationError>() {
+Class make_class(For<DiscretisationError>) {
   Class c{"DiscretisationError", "a discretisation error",
           "Estimated discretisation errors of a state, in the units of the quantities, from the same press "
           "on half and a quarter of the cells, or on thrice the cells with estimate=\"finer\"; math.huge "
@@ -140,8 +139,7 @@ Value chosen_record(const asperity::State& state) {
   return state.chosen() ? Value(chosen_accuracy_type(*state.chosen())) : Value();
 }
 
-template <>
-Class make_class<StateBounds>() {
+Class make_class(For<StateBounds>) {
   Class c{"AlgebraicError", "an algebraic error",
           "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the "
           "units of the quantities; math.huge where nothing can be said, as of bodies that attract each "
@@ -182,8 +180,7 @@ Class make_class<StateBounds>() {
   return c;
 }
 
-template <>
-Class make_class<StateError>() {
+Class make_class(For<StateError>) {
   Class c{"StateError", "the error of a state",
           "Errors of a state by source; the sources are never combined. A part is found when it is read."};
   c.describe = from_value([](const StateError& of) -> std::string {

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "bindings/lua/registry/record_type.hpp"
 #include "engine/core/error.hpp"

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "bindings/lua/editor/completion.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/record.hpp"

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
-#include <utility>
 
 #include "bindings/lua/ensemble/case_roster.hpp"
 #include "engine/core/program_identity.hpp"

@@ -4,7 +4,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/metrology/stylus.hpp"
 
 namespace asperity::lua {
 
@@ -73,8 +72,7 @@ Function stylus_function() {
           .example = "local stylus = lab.stylus{ tip=\"2 um\", speed=\"50 um/s\", rate=\"200 Hz\" }"};
 }
 
-template <>
-Class make_class<Stylus>() {
+Class make_class(For<Stylus>) {
   Class c{"Stylus", "a stylus", "A stylus profiler; an immutable value."};
   c.describe = from_value([](const Stylus& s) -> std::string {
     return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +

@@ -2,9 +2,7 @@
 #include "bindings/lua/registry/options.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"

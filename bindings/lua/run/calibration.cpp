@@ -344,8 +344,7 @@ CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, Ca
 }
 
 // data table
-template <>
-Class make_class<CalibrationReport>() {
+Class make_class(For<CalibrationReport>) {
   using R = CalibrationReport;
   Class c{"Calibration", "a calibration",
           "A result of lab.calibrate or t:fit. print() shows a line a parameter, correlation, verdict and "

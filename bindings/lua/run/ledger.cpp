@@ -25,8 +25,7 @@ Values ledger(Call& call) { return {object(call.session().ledger->report())}; }
 
 }  // namespace
 
-template <>
-Class make_class<LedgerReport>() {
+Class make_class(For<LedgerReport>) {
   using R = LedgerReport;
   Class c{"Ledger", "a ledger", "Work and cost of a run so far; print() shows the whole ledger."};
   c.fields = {

@@ -132,8 +132,7 @@ Function notebook_function() {
 }
 
 // data table
-template <>
-Class make_class<Notebook>() {
+Class make_class(For<Notebook>) {
   Class c{
       "Notebook", "a notebook",
       "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows "

@@ -15,8 +15,7 @@
 namespace asperity::lua {
 
 // lab.table: immutable tables from files, rows or notebooks.
-template <>
-Class make_class<asperity::Table>();
+Class make_class(For<asperity::Table>);
 
 Module table_module();
 
@@ -50,8 +49,7 @@ Function chart_method();
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 
 // lab.notebook: rows with free columns, expectations and charts.
-template <>
-Class make_class<Notebook>();
+Class make_class(For<Notebook>);
 Function notebook_function();
 extern const Block<NotebookChart> notebook_chart_block;
 
@@ -61,8 +59,7 @@ Module knob_module();
 void note_knobs(const Session& session);
 
 // lab.ledger: the costs of all calls, field reads and turns of iterators, entered by the calling frames.
-template <>
-Class make_class<LedgerReport>();
+Class make_class(For<LedgerReport>);
 Function ledger_function();
 
 }  // namespace asperity::lua

@@ -195,8 +195,7 @@ std::vector<Function> table_methods() {
 
 std::vector<const RecordInfo*> table_results() { return {&histogram_type()}; }
 
-template <>
-Class make_class<asperity::Table>() {
+Class make_class(For<asperity::Table>) {
   Class c{
       "Table", "a table of columns",
       "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "

@@ -2,9 +2,6 @@
 #include "bindings/lua/run/table_values.hpp"
 
 #include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/run.hpp"

@@ -5,13 +5,9 @@
 
 #include <filesystem>
 #include <set>
-#include <string>
 #include <string_view>
 #include <system_error>
 
-#include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/registry/session.hpp"
-#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"

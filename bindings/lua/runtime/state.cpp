@@ -10,14 +10,12 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <optional>
 
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/embedded.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"

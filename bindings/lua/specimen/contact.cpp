@@ -226,8 +226,7 @@ Function contact_function() {
 }
 
 // data table
-template <>
-Class make_class<SpecimenPair>() {
+Class make_class(For<SpecimenPair>) {
   Class c{"Contact", "a contact",
           "Two specimens on the bench, the placement of the upper on the lower, and the scene: the only "
           "value that changes."};

@@ -16,8 +16,7 @@
 
 namespace asperity::lua {
 
-template <>
-Class make_class<SpecimenPair>();
+Class make_class(For<SpecimenPair>);
 
 // Options of c:press, c:place and c:shift, also in protocol events.
 struct PressKeys : PressRequest {
@@ -43,8 +42,7 @@ Function contact_function();
 
 // Partial slip under a tangential force below sliding.
 Function shear_method();
-template <>
-Class make_class<PartialSlip>();
+Class make_class(For<PartialSlip>);
 
 // One Error reports all problems.
 Scene read_scene(Call& call);

@@ -2,16 +2,13 @@
 #include "bindings/lua/specimen/explanation.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 #include <variant>
 
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
-#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/json.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/specimen/protocol.hpp"
 
-#include <optional>
-
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -214,8 +212,7 @@ Values write_protocol(Call& call) {
 Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
 
 // data table
-template <>
-Class make_class<Protocol>() {
+Class make_class(For<Protocol>) {
   Class c{"Protocol", "a protocol",
           "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
           "the number of events."};

@@ -8,7 +8,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/specimen/contact.hpp"
-#include "engine/specimen/tilt_trials.hpp"
 
 namespace asperity::lua {
 
@@ -174,8 +173,7 @@ Function tilt_stage_function() {
       .example = "local stage = lab.tilt_stage{ contact=c, friction=law, mass=\"4.3 g\" }"};
 }
 
-template <>
-Class make_class<TiltStage>() {
+Class make_class(For<TiltStage>) {
   Class c{"TiltStage", "a tilt stage", "A tilt stage with a specimen on it."};
   c.shareable = false;
   c.describe = from_value([](const TiltStage& stage) -> std::string {

@@ -222,8 +222,7 @@ Function spread_contact_function() {
               "elasticity=\"half_space\" } }"};
 }
 
-template <>
-Class make_class<SpreadContact>() {
+Class make_class(For<SpreadContact>) {
   Class c{"SpreadContact", "a contact over ranks",
           "A surface in slabs under a flat, ready to be pressed by all ranks together."};
   c.shareable = false;

@@ -158,8 +158,7 @@ void keep_press(const Call& call, const SlabContactProblem& problem, const Sprea
 }
 
 // data table
-template <>
-Class make_class<SpreadState>() {
+Class make_class(For<SpreadState>) {
   using A = SlabContactAnswer;
   using S = SpreadState;
   Class c{"SpreadState", "a state over ranks",

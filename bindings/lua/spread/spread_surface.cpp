@@ -147,8 +147,7 @@ Module spread_module() {
   return m;
 }
 
-template <>
-Class make_class<SlabSurface>() {
+Class make_class(For<SlabSurface>) {
   using S = SlabSurface;
   Class c{"SpreadSurface", "a surface over ranks", "A rough surface; each rank holds some rows."};
   c.shareable = false;

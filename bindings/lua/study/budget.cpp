@@ -344,8 +344,7 @@ Function budget_function() {
           "})"};
 }
 
-template <>
-Class make_class<Budget>() {
+Class make_class(For<Budget>) {
   Class c{"Budget", "a budget", "A number with its whole error. print() shows the table of parts."};
   c.describe = lines_of<Budget>;
   c.fields = {

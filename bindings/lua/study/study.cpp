@@ -114,8 +114,7 @@ void record_result(RunDirectory* run, const std::string& name, const StudyResult
   if (!run->dry()) write_atomically(file, study_table(result).csv());
 }
 
-template <>
-Class make_class<Study>() {
+Class make_class(For<Study>) {
   Class c{"Study", "a study",
           "Result of a study of work and precision. print() shows its rows and the cheapest setting for 10 "
           "%, 1 % and 0.1 %."};
@@ -170,8 +169,7 @@ Class make_class<Study>() {
   return c;
 }
 
-template <>
-Class make_class<StudyChoice>() {
+Class make_class(For<StudyChoice>) {
   Class c{"StudyChoice", "a setting of a study",
           "A setting that a study chose. print() shows its knobs as Lua source, to be pasted."};
   c.describe = from_value([](const StudyChoice& choice) -> std::string {

@@ -322,8 +322,7 @@ std::vector<Function> parameter_methods() {
 
 std::vector<const RecordInfo*> parameter_results() { return {&scale_dependence_type(), &reliability_type}; }
 
-template <>
-Class make_class<ArealParameters>() {
+Class make_class(For<ArealParameters>) {
   Class c{"ArealParameters", "areal parameters",
           "The areal parameters of a map (ISO 25178-2), of the points that were measured. One that the map "
           "does not define is nil: why_not says why."};
@@ -347,8 +346,7 @@ Class make_class<ArealParameters>() {
   return c;
 }
 
-template <>
-Class make_class<MaterialRatioCurve>() {
+Class make_class(For<MaterialRatioCurve>) {
   Class c{"MaterialRatioCurve", "a material ratio curve",
           "Share of the points above each height; heights count from the mean, ratios from 0 to 1."};
   c.describe = from_value([](const RatioCurve& curve) -> std::string {
@@ -394,8 +392,7 @@ Class make_class<MaterialRatioCurve>() {
   return c;
 }
 
-template <>
-Class make_class<Autocorrelation>() {
+Class make_class(For<Autocorrelation>) {
   Class c{"Autocorrelation", "an autocorrelation",
           "The autocorrelation of a surface at lags of whole cells, 1 at the origin."};
   c.describe = from_value([](const Autocorrelation& f) -> std::string {

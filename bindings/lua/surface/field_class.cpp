@@ -47,8 +47,7 @@ Values field_picture(Call& call) {
 
 }  // namespace
 
-template <>
-Class make_class<NamedField>() {
+Class make_class(For<NamedField>) {
   using F = NamedField;
   Class c{"Field", "a field",
           "A quantity at every node of the tile; nan where it is missing, as the gap is where nothing faces "

@@ -76,8 +76,7 @@ const Block<ReadProfileOptions> read_profile_block{
 }  // namespace
 
 // data table
-template <>
-Class make_class<Profile>() {
+Class make_class(For<Profile>) {
   Class c{"Profile", "a profile",
           "Heights at equal spacing along a line, or once around a closed outline; an immutable value."};
   c.describe = from_value([](const Profile& p) -> std::string {
