@@ -171,21 +171,6 @@ const Block<EnsembleKeys> ensemble_block{
             "ensemble_kept.csv; or the list rows.failed of {index, case, message}, and rows of the others")},
     check_keys};
 
-// A dry run calls `run` in the script's own state, and neither counts nor lists nested ensembles.
-struct NestedEnsembles {
-  explicit NestedEnsembles(Session& s)
-      : session(s), listed(std::exchange(s.on_ensemble, nullptr)), numbered(s.numbered_ensembles) {}
-  ~NestedEnsembles() {
-    session.on_ensemble = listed;
-    session.numbered_ensembles = numbered;
-  }
-  NestedEnsembles(const NestedEnsembles&) = delete;
-  NestedEnsembles& operator=(const NestedEnsembles&) = delete;
-  Session& session;
-  decltype(Session::on_ensemble) listed;
-  int numbered;
-};
-
 Map case_values(const std::vector<CaseValue>& values) {
   Map map;
   for (const CaseValue& value : values) map.items.emplace_back(value.key, value.value);
@@ -260,7 +245,6 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// To the run or the enclosing case.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results)
     for (const RunKnob& knob : result.knobs) {
@@ -348,7 +332,9 @@ Values ensemble(Call& call) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
       if (session.on_ensemble)
         session.on_ensemble(place, keys.count(), [&](std::size_t k) { return case_name(keys.values(k)); });
-      const NestedEnsembles nested(session);
+      // `run` is called in this state, and nested ensembles are neither counted nor listed.
+      const Temporarily listed(session.on_ensemble, nullptr);
+      const Temporarily numbered(session.numbered_ensembles, session.numbered_ensembles);
       return dry_rows(call, keys, run);
     }
     const Stream seeds(session.seed, "ensemble");

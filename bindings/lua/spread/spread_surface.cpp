@@ -29,27 +29,14 @@ Values spread_flat_body(Call& call) {
   return spread_result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
 }
 
-// While other ranks wait for this call.
-class WaitedFor {
- public:
-  explicit WaitedFor(Session& session) : session_(session) {
-    session_.with_other_ranks = session_.ranks != nullptr;
-  }
-  ~WaitedFor() { session_.with_other_ranks = false; }
-  WaitedFor(const WaitedFor&) = delete;
-  WaitedFor& operator=(const WaitedFor&) = delete;
-
- private:
-  Session& session_;
-};
-
 Values spread_from_function_body(Call& call) {
   const GridKeys keys = call.options(from_function_block);
   const Grid grid = keys.make();
   Team& team = team_of(call);
   return with_key(call.argument(1), "height", [&](const Argument& function) {
     const Callback height(function);
-    const WaitedFor waited_for(call.session());
+    Session& session = call.session();
+    const Temporarily waits(session.with_other_ranks, session.ranks != nullptr);
     const auto row = [&](int j, double* to) {
       for (int i = 0; i < grid.nx; ++i) to[i] = height({i * grid.hx(), j * grid.hy()}, "height");
     };
@@ -106,10 +93,9 @@ Team& team_of(const Call& call) {
 
 Module spread_module() {
   Module m{"lab.spread",
-           "One contact that does not fit one process: surfaces, the half-space and its states in slabs "
-           "over the ranks of `mpirun -n K asperity run`; no rank holds the whole grid. In a process alone "
-           "the same with one slab. Over several ranks last digits hang on the processor and the C "
-           "library."};
+           "One contact that does not fit one process: surfaces, the half-space and its states in slabs over "
+           "the ranks of `mpirun -n K asperity run`; no rank holds the whole grid. In a process alone the "
+           "same with one slab. Over several ranks last digits hang on the processor and the C library."};
   auto add = [&](const char* name, Body body, const char* sentence, const BlockInfo& block,
                  const char* example) {
     m.functions.push_back({.name = name,
