@@ -257,23 +257,18 @@ ScriptType script_type(std::string_view text) {
 }
 
 std::string type_text(const ScriptType& type) {
-  struct Shower {
-    std::string operator()(ScriptType::Unknown) const { return ""; }
-    std::string operator()(ScriptType::Number) const { return "a number"; }
-    std::string operator()(ScriptType::Text) const { return "a string"; }
-    std::string operator()(const Module* module) const { return module->path; }
-    std::string operator()(const Class* type) const { return type->article_name; }
-    std::string operator()(const RecordInfo* type) const { return "a " + type->title + " result"; }
-    std::string operator()(const Function* function) const { return qualified_name(*function); }
-    std::string operator()(const ScriptType::Table& table) const {
-      if (table.element == nullptr || table.is_map) return table.is_map ? "a result" : "a table";
-      const std::string element = type_text(*table.element);
-      return "a list" + (element.empty() ? "" : ", each " + element);
-    }
-    std::string operator()(const ScriptType::Iterator&) const { return "an iterator"; }
-    std::string operator()(const ScriptType::Library&) const { return ""; }
-  };
-  return std::visit(Shower{}, type.data);
+  if (type.as<ScriptType::Number>() != nullptr) return "a number";
+  if (type.as<ScriptType::Text>() != nullptr) return "a string";
+  if (type.as<ScriptType::Iterator>() != nullptr) return "an iterator";
+  if (const auto* module = type.as<const Module*>()) return (*module)->path;
+  if (const auto* value = type.as<const Class*>()) return (*value)->article_name;
+  if (const auto* record = type.as<const RecordInfo*>()) return "a " + (*record)->title + " result";
+  if (const auto* function = type.as<const Function*>()) return qualified_name(**function);
+  const auto* table = type.as<ScriptType::Table>();
+  if (table == nullptr) return "";
+  if (table->element == nullptr || table->is_map) return table->is_map ? "a result" : "a table";
+  const std::string element = type_text(*table->element);
+  return "a list" + (element.empty() ? "" : ", each " + element);
 }
 
 ScriptTypes::ScriptTypes(std::string_view text, std::vector<Token> tokens,

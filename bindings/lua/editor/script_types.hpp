@@ -96,7 +96,6 @@ class ScriptTypes {
   std::string_view word(std::size_t k) const {
     return text_.substr(tokens_[k].begin, tokens_[k].end - tokens_[k].begin);
   }
-  // Whether token k is this sign or keyword.
   bool is(std::size_t k, std::string_view word_or_sign) const;
 
   // The token that opens the innermost bracket or block around token k, or around the end of the text (k =
