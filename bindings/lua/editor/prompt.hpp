@@ -45,7 +45,6 @@ class Prompt {
   std::string with_unit(const std::string& expression, int index) const;
   std::string with_unit_of(int owner, std::string_view field, int index) const;
   std::vector<LiveGlobal> live_globals() const;
-  void keep_globals();
   void restore_globals();
 
   lua_State* L;
