@@ -82,17 +82,15 @@ Dimension kind_given(const std::string& text) {
   }
 }
 
-Values si_value(Call& call) {
-  if (call.argument(1).is_number()) return {call.argument(1).number()};
-  const std::string text = call.text(1, "quantity");
-  if (!call.given(2)) return {parse_quantity(text).value};
-  return {parse_quantity_as(text, kind_given(call.text(2, "kind")))};
-}
-
 Function quantity_function() {
   return {
       .name = "quantity",
-      .body = si_value,
+      .body = [](Call& call) -> Values {
+        if (call.argument(1).is_number()) return {call.argument(1).number()};
+        const std::string text = call.text(1, "quantity");
+        if (!call.given(2)) return {parse_quantity(text).value};
+        return {parse_quantity_as(text, kind_given(call.text(2, "kind")))};
+      },
       .sentence =
           "A quantity as a number in SI, as every key of the language takes it: lab.quantity \"250 um\" is "
           "2.5e-4. A plain number stays as it is.",

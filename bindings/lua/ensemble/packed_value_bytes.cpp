@@ -273,49 +273,27 @@ struct PackedValue::Reader {
   Value value(Tag kind) {
     if (++depth > deepest_packed) ByteReader::damaged();
     Value result = [&]() -> Value {
-      switch (kind) {
-        case Tag::nil:
-          return {};
-        case Tag::truth:
-          return in.truth();
-        case Tag::integer:
-          return in.number<std::int64_t>();
-        case Tag::number:
-          return in.number<double>();
-        case Tag::text:
-          return in.text();
-        case Tag::given: {
-          const auto place = in.number<std::uint64_t>();
-          if (place >= given.size()) ByteReader::damaged();
-          return given[static_cast<std::size_t>(place)];
-        }
-        case Tag::surface:
-          return surface();
-        case Tag::profile:
-          return profile();
-        case Tag::material:
-          return object(fields<Material>());
-        case Tag::record:
-          return record();
-        case Tag::list: {
-          List list;
-          for (std::size_t left = in.count(); left > 0; --left) list.items.push_back(value());
-          list.named = named();
-          return list;
-        }
-        case Tag::map: {
-          Map map;
-          map.items = named();
-          return map;
-        }
-        case Tag::numbers:
-          return std::make_shared<const Array<double>>(numbers());
-        case Tag::rows:
-          return std::make_shared<const Field>(field());
-        case Tag::node:
-          break;
+      if (kind == Tag::nil) return {};
+      if (kind == Tag::truth) return in.truth();
+      if (kind == Tag::integer) return in.number<std::int64_t>();
+      if (kind == Tag::number) return in.number<double>();
+      if (kind == Tag::text) return in.text();
+      if (kind == Tag::surface) return surface();
+      if (kind == Tag::profile) return profile();
+      if (kind == Tag::material) return object(fields<Material>());
+      if (kind == Tag::record) return record();
+      if (kind == Tag::numbers) return std::make_shared<const Array<double>>(numbers());
+      if (kind == Tag::rows) return std::make_shared<const Field>(field());
+      if (kind == Tag::map) return Map{named()};
+      if (kind == Tag::list) {
+        List list;
+        for (std::size_t left = in.count(); left > 0; --left) list.items.push_back(value());
+        list.named = named();
+        return list;
       }
-      ByteReader::damaged();
+      const auto place = kind == Tag::given ? in.number<std::uint64_t>() : given.size();
+      if (place >= given.size()) ByteReader::damaged();
+      return given[static_cast<std::size_t>(place)];
     }();
     --depth;
     return result;

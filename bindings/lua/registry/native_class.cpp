@@ -150,15 +150,11 @@ int guarded_operator(lua_State* L, const Operator& operation) {
   });
 }
 
-int operator_after_failure(lua_State* L, const Operator& operation) {
-  if (!noted_as_mistake(L)) return -1;
-  return guarded(L, operation.form, [&]() -> Values { return {placeholder_of(operation.returns)}; });
-}
-
 int outer_operator(lua_State* L) {
   const Operator& operation = *static_cast<const Operator*>(lua_touserdata(L, lua_upvalueindex(1)));
   int results = guarded_operator(L, operation);
-  if (results < 0) results = operator_after_failure(L, operation);
+  if (results < 0 && noted_as_mistake(L))
+    results = guarded(L, operation.form, [&]() -> Values { return {placeholder_of(operation.returns)}; });
   return results < 0 ? lua_error(L) : results;
 }
 

@@ -82,6 +82,13 @@ std::string table_line(lua_State* L, int index, int depth) {
   return parts.empty() ? "{}" : "{ " + line + " }" + behind;
 }
 
+bool is_plain_table(lua_State* L, int index) {
+  if (lua_type(L, index) != LUA_TTABLE) return false;
+  if (luaL_getmetafield(L, index, "__tostring") == LUA_TNIL) return true;
+  lua_pop(L, 1);
+  return false;
+}
+
 std::string line_of(lua_State* L, int index, int depth) {
   const Argument value(L, index);
   if (value.is_text()) {
@@ -101,15 +108,7 @@ std::string line_of(lua_State* L, int index, int depth) {
     return "a function";
   }
   const Argument::StackGuard guard(L);
-  const bool plain = value.is_table() && luaL_getmetafield(L, value.index(), "__tostring") == LUA_TNIL;
-  return plain ? table_line(L, value.index(), depth) : told(L, value.index());
-}
-
-bool is_plain_table(lua_State* L, int index) {
-  if (lua_type(L, index) != LUA_TTABLE) return false;
-  if (luaL_getmetafield(L, index, "__tostring") == LUA_TNIL) return true;
-  lua_pop(L, 1);
-  return false;
+  return is_plain_table(L, value.index()) ? table_line(L, value.index(), depth) : told(L, value.index());
 }
 
 bool write(std::FILE* output, std::string_view text) {

@@ -26,11 +26,6 @@ namespace asperity::lua {
 
 namespace {
 
-int open_library(lua_State* L) {
-  push_library(L);
-  return 1;
-}
-
 // A pipe's writer may never come.
 void refuse_pipe(const std::string& name, const std::string& place) {
   std::error_code none;
@@ -211,7 +206,8 @@ int set_up(lua_State* L) {
   lua_call(L, 2, 0);
   lua_pop(L, 1);
 
-  luaL_requiref(L, "asperity", open_library, 0);
+  luaL_requiref(
+      L, "asperity", [](lua_State* s) { return push_library(s), 1; }, 0);
   lua_pop(L, 1);
   preload_embedded_scripts(L);
 
@@ -246,17 +242,10 @@ int set_up(lua_State* L) {
 }
 
 const char* stop_sentence(StopReason reason) {
-  switch (reason) {
-    case StopReason::none:
-      break;
-    case StopReason::interrupt:
-      return "interrupted";
-    case StopReason::time_limit:
-      return "the time limit of the run is reached";
-    case StopReason::memory_limit:
-      return "the memory limit of the run is reached";
-  }
-  return nullptr;
+  return reason == StopReason::none         ? nullptr
+         : reason == StopReason::interrupt  ? "interrupted"
+         : reason == StopReason::time_limit ? "the time limit of the run is reached"
+                                            : "the memory limit of the run is reached";
 }
 
 // A second stop would prevent the traceback.
