@@ -88,6 +88,13 @@ RecordField<ToldParameter> told_number(const char* name, const char* sentence) {
       .in(dimension_of);
 }
 
+template <auto member, class Points>
+std::vector<double> column_of(const Points& points) {
+  std::vector<double> values;
+  for (const auto& point : points) values.push_back(point.*member);
+  return values;
+}
+
 const RecordType<ToldParameter> calibrated_parameter_type{
     "CalibratedParameter",
     "parameter",
@@ -108,19 +115,9 @@ const RecordType<ToldParameter> calibrated_parameter_type{
      {"determined", [](const ToldParameter& p) { return p.of.determined; }, "whether the rows determine it"},
      {"at_lower", [](const ToldParameter& p) { return p.of.at_lower; }, "whether it is at its lower bound"},
      {"at_upper", [](const ToldParameter& p) { return p.of.at_upper; }, "whether it is at its upper bound"},
-     {"profile_values",
-      [](const ToldParameter& p) {
-        std::vector<double> values;
-        for (const ProfilePoint& point : p.of.profile) values.push_back(point.value);
-        return values;
-      },
+     {"profile_values", [](const ToldParameter& p) { return column_of<&ProfilePoint::value>(p.of.profile); },
       "places at which its profile was computed"},
-     {"profile_excess",
-      [](const ToldParameter& p) {
-        std::vector<double> values;
-        for (const ProfilePoint& point : p.of.profile) values.push_back(point.excess);
-        return values;
-      },
+     {"profile_excess", [](const ToldParameter& p) { return column_of<&ProfilePoint::excess>(p.of.profile); },
       "(S - S_min)/s² there; the interval ends where it meets `cut`"}}};
 
 const RecordType<CalibratedSpecimen> calibrated_specimen_type{
@@ -168,22 +165,14 @@ List told_correlation(const CalibrationReport& report) {
 
 using Curve = std::vector<CurvePoint>;
 
-std::vector<double> of_points(const Curve& curve, double CurvePoint::*member) {
-  std::vector<double> values;
-  for (const CurvePoint& point : curve) values.push_back(point.*member);
-  return values;
-}
-
 const RecordType<Curve> curve_type{
     "FitCurve",
     "curve",
     "A fitted curve over the range of the points, with the pointwise interval of the curve.",
-    {{"x", [](const Curve& c) { return of_points(c, &CurvePoint::x); }, "places, ascending"},
-     {"y", [](const Curve& c) { return of_points(c, &CurvePoint::y); }, "the curve there"},
-     {"low", [](const Curve& c) { return of_points(c, &CurvePoint::low); },
-      "lower end of its interval there"},
-     {"high", [](const Curve& c) { return of_points(c, &CurvePoint::high); },
-      "upper end of its interval there"}}};
+    {{"x", column_of<&CurvePoint::x, Curve>, "places, ascending"},
+     {"y", column_of<&CurvePoint::y, Curve>, "the curve there"},
+     {"low", column_of<&CurvePoint::low, Curve>, "lower end of its interval there"},
+     {"high", column_of<&CurvePoint::high, Curve>, "upper end of its interval there"}}};
 
 struct CalibrationChartKeys {
   std::optional<std::string> x;
@@ -195,8 +184,7 @@ struct CalibrationChartKeys {
 const Block<CalibrationChartKeys> calibration_chart_block{
     {text("x", &CalibrationChartKeys::x, "the column along; without it, measured y against fitted y"),
      flag("likelihood", &CalibrationChartKeys::likelihood,
-          "draw the profile likelihood of each parameter instead, with the limit at which its interval "
-          "ends"),
+          "draw the profile likelihood of each parameter instead, with the limit at which its interval ends"),
      text("title", &CalibrationChartKeys::title, "above the chart"),
      text("file", &CalibrationChartKeys::file,
           "an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood "
@@ -246,12 +234,12 @@ Option<CalibrationKeys> specimen_option() {
 }
 
 Option<CalibrationKeys> basis_option() {
-  return in_options(choice("basis", &CalibrationOptions::basis,
-                           {{"automatic", CalibrationBasis::automatic},
-                            {"rows", CalibrationBasis::rows},
-                            {"specimens", CalibrationBasis::specimens}},
-                           "the observations; automatic: rows, and specimens where they scatter "
-                           "(F test at 50 %)"));
+  return in_options(
+      choice("basis", &CalibrationOptions::basis,
+             {{"automatic", CalibrationBasis::automatic},
+              {"rows", CalibrationBasis::rows},
+              {"specimens", CalibrationBasis::specimens}},
+             "the observations; automatic: rows, and specimens where they scatter (F test at 50 %)"));
 }
 
 Option<CalibrationKeys> confidence_option() {
@@ -260,10 +248,9 @@ Option<CalibrationKeys> confidence_option() {
 }
 
 Option<CalibrationKeys> profile_option() {
-  return in_options(
-      flag("profile", &CalibrationOptions::profile,
-           "intervals by profile likelihood as well: two sets of parameters each where the model "
-           "is straight, ten or more where it is curved"));
+  return in_options(flag("profile", &CalibrationOptions::profile,
+                         "intervals by profile likelihood as well: two sets of parameters each where the "
+                         "model is straight, ten or more where it is curved"));
 }
 
 CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& keys) {
@@ -428,9 +415,8 @@ Class make_class(For<CalibrationReport>) {
                    "parameter; returns the file. Takes no call of the model.",
        .options = optional(calibration_chart_block),
        .returns = "string",
-       .example =
-           "lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, y=\"mu\", "
-           "parameters={ mu0=0.3, rise=0 } }:chart{ x=\"N\" }",
+       .example = "lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, "
+                  "y=\"mu\", parameters={ mu0=0.3, rise=0 } }:chart{ x=\"N\" }",
        .heavy = true},
   };
   return c;

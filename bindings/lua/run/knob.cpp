@@ -42,17 +42,15 @@ Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::s
       .required();
 }
 
-void check_knob(KnobKeys& keys, Problems& problems) {
-  if (problems.empty()) detail::collect(problems, [&] { require_knob(keys); });
-}
-
 const Block<KnobKeys> knob_block{
     {text("name", &RunKnob::name, "by which it is set; the same one in a script is the same knob").required(),
      knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
      knob_quantity("to", &RunKnob::to, "the upper end"),
      knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
      flag("log", &RunKnob::log, "equal ways of the slider are equal ratios")},
-    check_knob};
+    [](KnobKeys& keys, Problems& problems) {
+      if (problems.empty()) detail::collect(problems, [&] { require_knob(keys); });
+    }};
 
 Values make_knob(Call& call) {
   const KnobKeys keys = call.options(knob_block);
@@ -100,26 +98,25 @@ Module knob_module() {
   m.functions = {
       {.name = "set",
        .body = set_knob,
-       .sentence =
-           "Moves a knob in the prompt. After the line has ended, all entered lines run again from the "
-           "start with the new value; heavy calls with unchanged inputs are taken from memory. If the "
-           "run fails, nothing changes. A script cannot move its own knobs.",
+       .sentence = "Moves a knob in the prompt. After the line has ended, all entered lines run again from "
+                   "the start with the new value; heavy calls with unchanged inputs are taken from memory. "
+                   "If the run fails, nothing changes. A script cannot move its own knobs.",
        .parameters = {{"name", "string", "of a knob that was made"},
                       {"value", "number|string", "between its bounds; a plain number is SI"}},
        .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};
-  m.call = Function{
-      .name = "knob",
-      .body = make_knob,
-      .sentence =
-          "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
-          "page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run "
-          "records the values it was made with, and replay and resume take those.",
-      .options = &knob_block,
-      .returns = "number",
-      .example =
-          "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
-          "log=true }",
-      .look = look_at_knob};
+  m.call =
+      Function{.name = "knob",
+               .body = make_knob,
+               .sentence =
+                   "A number that may be set from outside within bounds; returns its value, in SI. A slider "
+                   "on the page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command "
+                   "line. A run records the values it was made with, and replay and resume take those.",
+               .options = &knob_block,
+               .returns = "number",
+               .example =
+                   "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
+                   "log=true }",
+               .look = look_at_knob};
   return m;
 }
 

@@ -120,23 +120,22 @@ std::shared_ptr<const asperity::Table> table_of_self(const Call& call) {
 }
 
 Function notebook_function() {
-  return {.name = "notebook",
-          .body = open_notebook,
-          .sentence =
-              "The notebook of that name: rows stored as <name>.csv in the run directory, written as they "
-              "come.",
-          .parameters = {{"name", "string", "of the notebook and its file"}},
-          .options = optional(notebook_block),
-          .returns = "Notebook",
-          .example = "local book = lab.notebook \"stiffness\""};
+  return {
+      .name = "notebook",
+      .body = open_notebook,
+      .sentence =
+          "The notebook of that name: rows stored as <name>.csv in the run directory, written as they come.",
+      .parameters = {{"name", "string", "of the notebook and its file"}},
+      .options = optional(notebook_block),
+      .returns = "Notebook",
+      .example = "local book = lab.notebook \"stiffness\""};
 }
 
 // data table
 Class make_class(For<Notebook>) {
-  Class c{
-      "Notebook", "a notebook",
-      "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows "
-      "written so far."};
+  Class c{"Notebook", "a notebook",
+          "A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the "
+          "rows written so far."};
   c.shareable = false;
   c.describe = from_value([](const Notebook& book) -> std::string {
     Table table = book.table();

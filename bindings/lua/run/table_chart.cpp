@@ -106,48 +106,43 @@ void read_functions(const Argument& value, const OptionInfo& info, C& c, Problem
 
 std::vector<Option<C>> panel_keys(bool first) {
   auto x = text("x", &C::x, "the column along");
-  std::vector<Option<C>> keys;
-  keys.push_back(first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"));
-  keys.push_back(
-      texts_key("y", "string|string[]", "the column, or columns of one unit, up", &C::y).required());
-  keys.push_back(text("one_line_per", &C::one_line_per, "a column; one line for each of its values"));
-  keys.push_back(custom<C>(
-      "spread", "boolean|string",
-      "error bars: true for the scatter of rows that share x, or a column that holds them", read_spread));
-  keys.push_back(custom<C>(
-      "interval", "{string, string}",
-      "error bars: the columns that hold their lower and upper ends, as t:mean gives them", read_interval));
-  keys.push_back(where_key(&C::where));
-  keys.push_back(flag("log_x", &C::log_x, "logarithmic axis along"));
-  keys.push_back(flag("log_y", &C::log_y, "logarithmic axis up"));
-  keys.push_back(flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"));
-  keys.push_back(custom<C>("lines", "boolean|table[]",
-                           "whether to join the points: where a fit is drawn or names stand along x they are "
-                           "not, unless asked for; or a list of lines across, each with y or x, a number in "
-                           "the column's unit or a quantity, and a name",
-                           read_lines)
-                     .defaults_to("true"));
-  keys.push_back(flag("points", &C::points, "mark the points"));
-  keys.push_back(custom<C>("fit", "Calibration|Calibration[]",
-                           "a result of t:fit for these columns, drawn with the band of the curve",
-                           read_fits));
-  keys.push_back(custom<C>("functions", "table<string, function>",
-                           "functions of x drawn as lines under their names, in the units of the columns",
-                           read_functions));
-  keys.push_back(text("title", &C::title, "above the chart"));
-  keys.push_back(text("x_label", &C::x_label, "instead of the column's name"));
-  keys.push_back(text("y_label", &C::y_label, "instead of the column's name"));
-  keys.push_back(
-      choice("legend", &C::legend,
-             {{"right", "right"},
-              {"below", "below"},
-              {"top left", "top left"},
-              {"top right", "top right"},
-              {"bottom left", "bottom left"},
-              {"bottom right", "bottom right"},
-              {"none", "none"}},
-             "the place of the names of lines; default right, of long names or with `width` below"));
-  return keys;
+  return {first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"),
+          texts_key("y", "string|string[]", "the column, or columns of one unit, up", &C::y).required(),
+          text("one_line_per", &C::one_line_per, "a column; one line for each of its values"),
+          custom<C>("spread", "boolean|string",
+                    "error bars: true for the scatter of rows that share x, or a column that holds them",
+                    read_spread),
+          custom<C>("interval", "{string, string}",
+                    "error bars: the columns that hold their lower and upper ends, as t:mean gives them",
+                    read_interval),
+          where_key(&C::where),
+          flag("log_x", &C::log_x, "logarithmic axis along"),
+          flag("log_y", &C::log_y, "logarithmic axis up"),
+          flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"),
+          custom<C>("lines", "boolean|table[]",
+                    "whether to join the points: where a fit is drawn or names stand along x they are "
+                    "not, unless asked for; or a list of lines across, each with y or x, a number in "
+                    "the column's unit or a quantity, and a name",
+                    read_lines)
+              .defaults_to("true"),
+          flag("points", &C::points, "mark the points"),
+          custom<C>("fit", "Calibration|Calibration[]",
+                    "a result of t:fit for these columns, drawn with the band of the curve", read_fits),
+          custom<C>("functions", "table<string, function>",
+                    "functions of x drawn as lines under their names, in the units of the columns",
+                    read_functions),
+          text("title", &C::title, "above the chart"),
+          text("x_label", &C::x_label, "instead of the column's name"),
+          text("y_label", &C::y_label, "instead of the column's name"),
+          choice("legend", &C::legend,
+                 {{"right", "right"},
+                  {"below", "below"},
+                  {"top left", "top left"},
+                  {"top right", "top right"},
+                  {"bottom left", "bottom left"},
+                  {"bottom right", "bottom right"},
+                  {"none", "none"}},
+                 "the place of the names of lines; default right, of long names or with `width` below")};
 }
 
 const Block<NotebookChart> below_block{panel_keys(false)};
@@ -213,15 +208,14 @@ const Block<NotebookChart> notebook_chart_block = [] {
                         [&] { c.below = std::make_shared<C>(below_block.read(value, quoted(info.name))); });
       });
   below.info.inner = &below_block;
-  keys.push_back(std::move(below));
-  keys.push_back(
-      quantity("width", &C::width, dimension::length, inside(0.02, 1),
-               "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"));
-  keys.push_back(number("font_size", &C::font_size, inside(3, 40),
-                        "of the text in print, in points; default 8, with a `width`, or 240 mm without one"));
-  keys.push_back(text("file", &C::file,
-                      "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
-                      "table table-<y>-<x>.svg"));
+  append(keys, std::move(below),
+         quantity("width", &C::width, dimension::length, inside(0.02, 1),
+                  "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"),
+         number("font_size", &C::font_size, inside(3, 40),
+                "of the text in print, in points; default 8, with a `width`, or 240 mm without one"),
+         text("file", &C::file,
+              "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
+              "table table-<y>-<x>.svg"));
   return Block<C>{std::move(keys)};
 }();
 

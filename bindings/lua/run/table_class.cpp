@@ -22,8 +22,7 @@ namespace {
 using Rows = asperity::Table;
 
 Values rows_where(Call& call) {
-  static const OptionInfo info{
-      .name = "where", .type = "table", .default_text = "", .range_text = "", .sentence = ""};
+  static const OptionInfo info{"where", "table", {}, "", "", ""};
   TableFilter filter;
   Problems problems;
   read_filter(call.argument(1), info, filter, problems);
@@ -69,8 +68,8 @@ const Block<Join> join_block{
           "behind the names of the other's columns that both tables have, such as \"_predicted\""),
      choice("unmatched", &Join::unmatched,
             {{"error", Unmatched::refuse}, {"leave out", Unmatched::leave_out}, {"keep", Unmatched::keep}},
-            "rows without a partner in the other table: an error, nothing, or a row with empty cells for "
-            "the other")}};
+            "rows without a partner in the other table: an error, nothing, or a row with empty cells for the "
+            "other")}};
 
 Rows table_given(const Call& call, int k, const char* name) {
   const Argument value = call.argument(k);
@@ -100,16 +99,17 @@ struct ReadKeys : TableForm {};
 
 const Block<ReadKeys> read_table_block = [] {
   std::vector<Option<ReadKeys>> keys(table_form_keys().begin(), table_form_keys().end());
-  keys.push_back(texts_key("text", "string|string[]",
-                           "columns that hold texts, whatever their cells look like", &TableForm::texts));
-  keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
-                        "origin of dates and times of day, in seconds: the first one of the column, or "
-                        "the beginning of 1970"));
-  keys.push_back(choice("steps_back", &TableForm::steps_back,
-                        {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
-                        "meaning of times that step back: a new day if times of day fall by more than half "
-                        "a day, or an hour if dates without a zone fall by about an hour")
-                     .defaults_to("nothing"));
+  append(keys,
+         texts_key("text", "string|string[]", "columns that hold texts, whatever their cells look like",
+                   &TableForm::texts),
+         choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
+                "origin of dates and times of day, in seconds: the first one of the column, or the beginning "
+                "of 1970"),
+         choice("steps_back", &TableForm::steps_back,
+                {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
+                "meaning of times that step back: a new day if times of day fall by more than half a "
+                "day, or an hour if dates without a zone fall by about an hour")
+             .defaults_to("nothing"));
   return Block<ReadKeys>(std::move(keys));
 }();
 
@@ -153,19 +153,17 @@ std::vector<Function> table_methods() {
   const std::vector<Function> others = {
       {.name = "where",
        .body = rows_where,
-       .sentence =
-           "A table of the rows whose columns hold these values. A value is a number, a string, a boolean, "
-           "or a list of alternatives. A number is in SI, or in the unit of the column's name; a quantity "
-           "such as \"10 MPa\" has its own.",
+       .sentence = "A table of the rows whose columns hold these values. A value is a number, a string, a "
+                   "boolean, or a list of alternatives. A number is in SI, or in the unit of the column's "
+                   "name; a quantity such as \"10 MPa\" has its own.",
        .parameters = {{"filter", "table", "values by the names of their columns"}},
        .returns = "Table",
        .example = "print(#book:where{ N={ 1, 2 } })",
        .unknown_when_dry = true},
       {.name = "column",
        .body = cells_of_column,
-       .sentence =
-           "The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, \"\" "
-           "where one is. print shows the numbers in the column's unit.",
+       .sentence = "The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, "
+                   "\"\" where one is. print shows the numbers in the column's unit.",
        .parameters = {{"column", "string", "its name"}},
        .returns = "any[]",
        .example = "local mu = book:column \"mu\"",
@@ -175,8 +173,8 @@ std::vector<Function> table_methods() {
          const Join join = call.options(join_block, 2);
          return {object(joined(*table_of_self(call), table_given(call, 1, "other"), join))};
        },
-       .sentence = "Joins each row to the rows of another table or notebook with equal values in the "
-                   "columns `by`: for example, measured numbers to computed ones.",
+       .sentence = "Joins each row to the rows of another table or notebook with equal values in the columns "
+                   "`by`: for example, measured numbers to computed ones.",
        .parameters = {{"other", "Table|Notebook", "the other table"}},
        .options = &join_block,
        .returns = "Table",
@@ -196,11 +194,10 @@ std::vector<Function> table_methods() {
 std::vector<const RecordInfo*> table_results() { return {&histogram_type()}; }
 
 Class make_class(For<asperity::Table>) {
-  Class c{
-      "Table", "a table of columns",
-      "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
-      "immutable value whose methods return new ones. Its numbers are in SI; print, files and charts show "
-      "them in the units of the columns."};
+  Class c{"Table", "a table of columns",
+          "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
+          "immutable value whose methods return new ones. Its numbers are in SI; print, files and charts "
+          "show them in the units of the columns."};
   c.describe = [](const void* self) { return table_text(*static_cast<const Rows*>(self)); };
   c.native_bytes = from_value([](const Rows& of) { return of.rows() * of.columns().size() * sizeof(Cell); });
   c.length = from_value([](const Rows& of) { return static_cast<std::int64_t>(of.rows()); });
@@ -230,8 +227,8 @@ Module table_module() {
            "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of "
            "heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. "
            "Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; "
-           "numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local "
-           "forms; columns of words are texts. An ambiguous value is an error with the key to give.",
+           "numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local forms; "
+           "columns of words are texts. An ambiguous value is an error with the key to give.",
        .parameters = {{"path", "string", "the file"}},
        .options = optional(read_table_block),
        .returns = "Table",

@@ -69,12 +69,11 @@ void check_fit(FitKeys& keys, Problems& problems) {
 const Block<FitKeys> fit_block{
     {text("x", &CalibrationKeys::x, "the column along").required(),
      text("y", &CalibrationKeys::y, "the column that is fitted").required(),
-     custom<FitKeys>(
-         "model", "\"linear\"|\"power\"|function",
-         "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
-         "returns y from the table q of parameters and the columns of a row, all in SI. Where the curve "
-         "is drawn, row has x only",
-         read_model)
+     custom<FitKeys>("model", "\"linear\"|\"power\"|function",
+                     "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
+                     "returns y from the table q of parameters and the columns of a row, all in SI. Where "
+                     "the curve is drawn, row has x only",
+                     read_model)
          .required(),
      custom<FitKeys>("start", "table", "for a function: its parameters by name, with values to begin from",
                      read_start),
@@ -171,17 +170,16 @@ std::optional<FittedCurve> fitted_curve_of(const Argument& value) {
 }
 
 Function fit_method() {
-  return {
-      .name = "fit",
-      .body = fit_of_columns,
-      .sentence =
-          "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals "
-          "and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` "
-          "draws it with its band. Undetermined parameters are an error with their names.",
-      .options = &fit_block,
-      .returns = "Calibration",
-      .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
-      .unknown_when_dry = true};
+  return {.name = "fit",
+          .body = fit_of_columns,
+          .sentence =
+              "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with "
+              "intervals and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` "
+              "draws it with its band. Undetermined parameters are an error with their names.",
+          .options = &fit_block,
+          .returns = "Calibration",
+          .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
+          .unknown_when_dry = true};
 }
 
 }  // namespace asperity::lua

@@ -18,11 +18,6 @@ namespace {
 
 using Rows = asperity::Table;
 
-std::string name_of_self(const Call& call) {
-  const auto* book = Argument(call.L, 1).as<Notebook>();
-  return book != nullptr ? book->name() : table_of_self(call)->name();
-}
-
 Values each_row(Call& call) {
   const auto table = table_of_self(call);
   auto next = std::make_shared<std::size_t>(0);
@@ -166,10 +161,9 @@ Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Exp
 
 const Block<Expectation> expect_block{
     {where_key(&Expectation::where),
-     bound_key(
-         "near", &Expectation::near,
-         "the value wanted, with `within` or `rel`: a quantity such as \"10 MPa\", or a number in SI or "
-         "in the unit of the column's name"),
+     bound_key("near", &Expectation::near,
+               "the value wanted, with `within` or `rel`: a quantity such as \"10 MPa\", or a number in SI "
+               "or in the unit of the column's name"),
      bound_key("within", &Expectation::within, "greatest distance from `near`"),
      number("rel", &Expectation::relative, at_least(0), "greatest distance from `near`, relative to it"),
      bound_key("at_least", &Expectation::at_least, "lowest value accepted"),
@@ -187,7 +181,8 @@ Values expect(Call& call) {
   RunDirectory& run =
       run_of(call, "states no expectations", "return its results, and expect it after the loop");
   const auto table = table_of_self(call);
-  return {run.expect(expectation, *table, name_of_self(call)).passed};
+  const auto* book = Argument(call.L, 1).as<Notebook>();
+  return {run.expect(expectation, *table, book != nullptr ? book->name() : table->name()).passed};
 }
 
 Function reduction(const std::string& name, Body body, const char* sentence) {
@@ -235,17 +230,17 @@ std::vector<Function> row_methods() {
       reduction("sum", reduced<Reduction::sum>, "The sum of a column, in SI."),
       {.name = "write",
        .body = write_table,
-       .sentence = "On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: "
-                   "[\"Ra [um]\"]=2.8; other numbers are in SI, and \"3 um\" is a quantity. t:write "
-                   "\"x.csv\" writes all "
-                   "rows as CSV with units in the heads; lab.table.read gives them back to the bit.",
+       .sentence =
+           "On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: [\"Ra "
+           "[um]\"]=2.8; other numbers are in SI, and \"3 um\" is a quantity. t:write \"x.csv\" writes all "
+           "rows as CSV with units in the heads; lab.table.read gives them back to the bit.",
        .parameters = {{"row", "table|string", "columns and their values, or a .csv under the run directory"}},
        .returns = "string?",
        .example = "book:write{ N=1, mu=0.4, [\"Ra [um]\"]=2.8 }"},
       {.name = "expect",
        .body = expect,
-       .sentence = "States an expectation of a column; returns whether it holds. A failed expectation "
-                   "makes the run exit 1 after everything is recorded.",
+       .sentence = "States an expectation of a column; returns whether it holds. A failed expectation makes "
+                   "the run exit 1 after everything is recorded.",
        .parameters = {{"column", "string", "the column; a unit in its name holds for the numbers given"}},
        .options = &expect_block,
        .returns = "boolean",

@@ -144,11 +144,10 @@ void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& key
 }
 
 const Block<HistogramKeys> column_histogram_block{
-    {custom<HistogramKeys>(
-         "bins", "integer|number[]",
-         "how many bins of equal width, or a list of their edges: quantities, or numbers in SI or in the "
-         "unit of the column's name",
-         read_bins)
+    {custom<HistogramKeys>("bins", "integer|number[]",
+                           "how many bins of equal width, or a list of their edges: quantities, or numbers "
+                           "in SI or in the unit of the column's name",
+                           read_bins)
          .defaults_to("by the rule of Freedman and Diaconis"),
      where_key(&HistogramKeys::where),
      flag("density", &HistogramKeys::density, "draw the share of values per width instead of their number"),

@@ -66,13 +66,6 @@ ShownColumns shown_columns(const Argument& given) {
   return shown;
 }
 
-Values show_table(Call& call) {
-  const ShownColumns shown = shown_columns(call.argument(1));
-  const auto table = table_of_self(call);
-  print_text(call.L, table_text(columns_of(*table, shown.names), table->rows(), shown.digits));
-  return {};
-}
-
 // A directive of string.format ("%5.2f") and its unit in brackets.
 struct Directive {
   std::size_t end = 0;                       // of the directive
@@ -147,7 +140,12 @@ Values say(Call& call) {
 
 Function show_method() {
   return {.name = "show",
-          .body = show_table,
+          .body = [](Call& call) -> Values {
+            const ShownColumns shown = shown_columns(call.argument(1));
+            const auto table = table_of_self(call);
+            print_text(call.L, table_text(columns_of(*table, shown.names), table->rows(), shown.digits));
+            return {};
+          },
           .sentence = "Prints all rows; with names, only these columns, in the units of the names.",
           .parameters = {{"columns", "table?", "names of columns, and digits=6 for the significant digits"}},
           .example = "book:show{ \"N\", \"mu [%]\", digits=3 }",
