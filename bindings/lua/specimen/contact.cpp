@@ -250,8 +250,8 @@ Class make_class(For<SpecimenPair>) {
        .body = sweep,
        .sentence =
            "One state after another along a list of loads, up or down. Bodies that attract each other are "
-           "followed on their branch: each state is drawn from the turns of the list before it. With "
-           ":table{ \"pressure [MPa]\", \"area_fraction [%]\" } behind it, all states become a Table.",
+           "followed on their branch: each state is drawn from the turns of the list before it. With :table{ "
+           "\"pressure [MPa]\", \"area_fraction [%]\" } behind it, all states become a Table.",
        .options = &sweep_block,
        .returns = "iterator<State>",
        .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end",
@@ -284,11 +284,10 @@ Class make_class(For<SpecimenPair>) {
       {.name = "log",
        .body = log,
        .sentence =
-           "Writes all events as a press log, which lab.protocol.read reads back: turns, loads, dwells, "
-           "the times of a protocol that has them. Further columns, which the reader skips, hold the "
-           "results of each press: result load or pressure, approach, area_fraction, peak_pressure. If "
-           "presses were requested in several ways, the log gives the resulting pressure of all. Returns "
-           "the file.",
+           "Writes all events as a press log, which lab.protocol.read reads back: turns, loads, dwells, the "
+           "times of a protocol that has them. Further columns, which the reader skips, hold the results of "
+           "each press: result load or pressure, approach, area_fraction, peak_pressure. If presses were "
+           "requested in several ways, the log gives the resulting pressure of all. Returns the file.",
        .parameters = {{"path", "string", "under the run directory"}},
        .returns = "string",
        .example = "c:log \"done.csv\"",
@@ -302,12 +301,11 @@ Class make_class(For<SpecimenPair>) {
        .body = method([](const SpecimenPair& pair, Call& call) {
          return call.given(1) ? pair.plan_of(call.options(press_block)) : pair.plan();
        }),
-       .sentence =
-           "Plan of a press: the computed terms, the terms that are off, and the expected transforms, "
-           "memory and time. Given the keys of contact:press, one trial of this press counts its "
-           "transforms: exactly on up to 128 x 128 cells, within a factor of two in nine presses of ten on "
-           "more, from a trial on about 128 x 128. Without keys, they are a rough guess for a press by "
-           "pressure. Presses nothing.",
+       .sentence = "Plan of a press: the computed terms, the terms that are off, and the expected "
+                   "transforms, memory and time. Given the keys of contact:press, one trial of this press "
+                   "counts its transforms: exactly on up to 128 x 128 cells, within a factor of two in nine "
+                   "presses of ten on more, from a trial on about 128 x 128. Without keys, they are a rough "
+                   "guess for a press by pressure. Presses nothing.",
        .options = optional(press_block),
        .returns = "Plan",
        .example = "print(c:explain{ approach=\"20 nm\" })"},
@@ -324,8 +322,8 @@ Class make_class(For<SpecimenPair>) {
       {.name = "close",
        .body = close,
        .sentence = "Frees the memory of the contact and all its states now instead of at Lua's next "
-                   "collection. A state retains every value already read, and its load, approach, area, "
-                   "peak pressure, certificate and digest; reading another value is an error.",
+                   "collection. A state retains every value already read, and its load, approach, area, peak "
+                   "pressure, certificate and digest; reading another value is an error.",
        .example = "c:close()"},
   };
   return c;

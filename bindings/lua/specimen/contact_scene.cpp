@@ -110,14 +110,9 @@ struct AccuracyKeys : Accuracy {
 };
 
 std::string_view estimate_text(Accuracy::Estimate estimate) {
-  switch (estimate) {
-    case Accuracy::Estimate::coarser:
-      return "true";
-    case Accuracy::Estimate::finer:
-      return "\"finer\"";
-    default:
-      return "false";
-  }
+  return estimate == Accuracy::Estimate::none      ? "false"
+         : estimate == Accuracy::Estimate::coarser ? "true"
+                                                   : "\"finer\"";
 }
 
 void read_estimate(const Argument& value, const OptionInfo& info, AccuracyKeys& keys, Problems& problems) {
@@ -285,11 +280,9 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
 }
 
 Option<SceneKeys> effects() {
-  Option<SceneKeys> option =
-      custom<SceneKeys>("effects", "table",
-                        "computed effects by name, e.g. { elasticity=\"box\" }; no other effect is "
-                        "computed",
-                        read_effects);
+  Option<SceneKeys> option = custom<SceneKeys>(
+      "effects", "table",
+      "computed effects by name, e.g. { elasticity=\"box\" }; no other effect is computed", read_effects);
   option.info.inner = &effects_block;
   return std::move(option).required();
 }

@@ -200,13 +200,6 @@ Values repeated(Call& call) {
 }
 Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<Protocol>(1, "next")))}; }
 
-Values write_protocol(Call& call) {
-  const std::string log = press_log_text(call.self<Protocol>());
-  const std::string path = writable_path(call, call.text(1, "path"));
-  write_atomically(path, log);
-  return {path};
-}
-
 }  // namespace
 
 Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
@@ -233,9 +226,9 @@ Class make_class(For<Protocol>) {
        .body = on,
        .sentence =
            "Does one event after another to a contact, one a turn of a for loop, which is given the event "
-           "and the state of a press, nil after any other. A turn or a load that the contact cannot take "
-           "is an error before the first event. An event that fails raises an error, and leaves the "
-           "contact as it was before that event; a loop that is broken off leaves the rest undone.",
+           "and the state of a press, nil after any other. A turn or a load that the contact cannot take is "
+           "an error before the first event. An event that fails raises an error, and leaves the contact as "
+           "it was before that event; a loop that is broken off leaves the rest undone.",
        .parameters = {{"contact", "Contact", "what it is done to"}},
        .returns = "iterator<ProtocolEvent and State?>",
        .example = "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
@@ -261,17 +254,21 @@ Class make_class(For<Protocol>) {
        .example = "local both = protocol:plus(protocol:repeated{ repeats=2 })"},
       {.name = "chart",
        .body = chart_protocol,
-       .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and "
-                   "labelled. A protocol detected in a recording is drawn over the recorded samples. "
-                   "Without recorded times the axis is the sum of dwells, or the event. Returns the "
-                   "file.",
+       .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and labelled. A "
+                   "protocol detected in a recording is drawn over the recorded samples. Without recorded "
+                   "times the axis is the sum of dwells, or the event. Returns the file.",
        .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
        .options = optional(chart_block),
        .returns = "string",
        .example = "protocol:chart \"protocol.svg\"",
        .heavy = true},
       {.name = "write",
-       .body = write_protocol,
+       .body = [](Call& call) -> Values {
+         const std::string log = press_log_text(call.self<Protocol>());
+         const std::string path = writable_path(call, call.text(1, "path"));
+         write_atomically(path, log);
+         return {path};
+       },
        .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
                    "pressure or load, and dwell. Shifts, and presses to anything else, are an error.",
        .parameters = {{"path", "string", "under the run directory"}},
@@ -296,8 +293,8 @@ Module protocol_module() {
                .options = &protocol_keys(),
                .returns = "Protocol",
                .example =
-                   "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
-                   "min\" } }, { release=true }, { place={ seed=1 } } }"};
+                   "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 min\" } }, "
+                   "{ release=true }, { place={ seed=1 } } }"};
   return m;
 }
 

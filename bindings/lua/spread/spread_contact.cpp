@@ -84,8 +84,8 @@ const Block<spread_SceneKeys> spread_scene_block{
            else if (const Object* other = value.as_any_object();
                     other != nullptr && other->type == &class_of<Surface>())
              problems.push_back(
-                 "`lower` is a surface that every rank holds; make it with lab.spread, or press it "
-                 "with lab.contact");
+                 "`lower` is a surface that every rank holds; make it with lab.spread, or press it with "
+                 "lab.contact");
            else if (!value.is_unknown())
              detail::wrong_type(value, info, "a surface from lab.spread", problems);
          })
@@ -105,17 +105,16 @@ const Block<spread_SceneKeys> spread_scene_block{
          [](const Argument& value, const OptionInfo& info, spread_SceneKeys&, Problems& problems) {
            if (value.is_text() && value.text() == "free")
              problems.push_back(
-                 "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or "
-                 "use lab.contact");
+                 "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or use "
+                 "lab.contact");
            else if (!value.is_text() || value.text() != "periodic")
              detail::wrong_type(value, info, "\"periodic\"", problems);
          })
          .required(),
-     custom<spread_SceneKeys>(
-         "effects", "table",
-         "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
-         "is limited",
-         spread_read_effects)
+     custom<spread_SceneKeys>("effects", "table",
+                              "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } "
+                              "if pressure is limited",
+                              spread_read_effects)
          .required(),
      table_of("accuracy", &spread_SceneKeys::accuracy, spread_accuracy_block,
               "required accuracy of a solve, and the action on failure")}};

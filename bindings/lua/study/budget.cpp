@@ -330,11 +330,10 @@ Function budget_function() {
       .name = "budget",
       .body = make_budget,
       .sentence =
-          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
-          "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
-          "share of each part, the cost of halving each, and the cheapest way to an interval. print() adds "
-          "a sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its "
-          "store.",
+          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser "
+          "tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of "
+          "each part, the cost of halving each, and the cheapest way to an interval. print() adds a sheet of "
+          "the inputs as the GUM has it. Presses computed before in the run are taken from its store.",
       .options = &budget_block,
       .returns = "Budget",
       .example =

@@ -18,25 +18,22 @@ namespace asperity::lua {
 
 namespace {
 
-Value finite(double value) { return std::isfinite(value) ? Value(value) : Value(); }
-
 Values rows_of_study(Call& call) {
   const StudyResult& result = call.self<Study>().result;
   List list;
   for (const StudyRow& row : result.rows) {
     Map map = knobs_map(result.knobs_of(row));
-    const auto add = [&](const char* name, Value value) {
-      if (!value.is_nil()) map.items.emplace_back(name, std::move(value));
-    };
+    const auto add = [&](const char* name, Value value) { map.items.emplace_back(name, std::move(value)); };
     add("way", result.way_of(row).name);
-    add("value", finite(row.value));
-    add("error", finite(row.error));
-    add("absolute_error", finite(row.absolute_error));
-    add("held_error", finite(row.held_error));
-    add("seconds", finite(row.seconds));
-    add("seconds_low", finite(row.seconds_low));
-    add("seconds_high", finite(row.seconds_high));
-    add("first_seconds", finite(row.first_seconds));
+    for (const auto& [name, value] : {std::pair{"value", row.value},
+                                      {"error", row.error},
+                                      {"absolute_error", row.absolute_error},
+                                      {"held_error", row.held_error},
+                                      {"seconds", row.seconds},
+                                      {"seconds_low", row.seconds_low},
+                                      {"seconds_high", row.seconds_high},
+                                      {"first_seconds", row.first_seconds}})
+      if (std::isfinite(value)) map.items.emplace_back(name, value);
     add("runs", static_cast<std::int64_t>(row.runs.size()));
     add("failed", row.end == StudyRow::End::failed);
     add("left_out", row.end == StudyRow::End::left_out);

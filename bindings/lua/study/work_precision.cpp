@@ -136,11 +136,6 @@ class LuaWork final : public StudyWork {
   std::string name_;
 };
 
-std::string own_name(Session& session, const std::string& name) {
-  const int count = ++session.studies[name];
-  return count == 1 ? name : name + "-" + std::to_string(count);
-}
-
 // For the first setting only.
 Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
   if (!keys.unknown) {
@@ -167,7 +162,8 @@ Values work_precision(Call& call) {
   return with_key(call.argument(1), "ask", [&](const Argument& ask) -> Values {
     if (session.dry_run) return dry_study(call, keys, ask);
     auto study = std::make_shared<Study>();
-    study->name = own_name(session, keys.name);
+    const int count = ++session.studies[keys.name];
+    study->name = keys.name + (count == 1 ? "" : "-" + std::to_string(count));
     LuaWork work(call, ask, study->name);
     WorkPrecision runner(keys, work, session.monitor());
     record_request(session.run.get(), study->name, runner.result().request);

@@ -266,12 +266,6 @@ const RecordType<TipCutOffs> reliability_type{
      {"y", &TipCutOffs::y, dimension::length, "of stencils along y"},
      {"cut_off", [](const TipCutOffs& t) { return std::max(t.x, t.y); }, dimension::length,
       "the greater of the two"}}};
-Values reliability_of(Call& call) {
-  const ReliabilityKeys keys = call.options(reliability_block);
-  const Surface& surface = call.self<Surface>();
-  return {reliability_type(TipCutOffs{tip_cut_off(surface, ScaleAxis::x, keys.tip, keys.share),
-                                      tip_cut_off(surface, ScaleAxis::y, keys.tip, keys.share)})};
-}
 
 using RatioCurve = MaterialRatioCurve;
 
@@ -312,7 +306,12 @@ std::vector<Function> parameter_methods() {
        .returns = "ScaleDependence",
        .example = "print(s:scale_dependence{ of=\"slope\" }.value[1])"},
       {.name = "reliability",
-       .body = reliability_of,
+       .body = [](Call& call) -> Values {
+         const ReliabilityKeys keys = call.options(reliability_block);
+         const Surface& surface = call.self<Surface>();
+         return {reliability_type(TipCutOffs{tip_cut_off(surface, ScaleAxis::x, keys.tip, keys.share),
+                                             tip_cut_off(surface, ScaleAxis::y, keys.tip, keys.share)})};
+       },
        .sentence = "Smallest scale at which a spherical tip can have measured the map.",
        .options = &reliability_block,
        .returns = "Reliability",

@@ -52,12 +52,6 @@ struct ProfilePictureKeys {
 };
 const Block<ProfilePictureKeys> profile_picture_block{
     {text("title", &ProfilePictureKeys::title, "above the picture")}};
-Values picture_of_profile(Call& call) {
-  const ProfilePictureKeys keys = call.options(profile_picture_block, 2);
-  const std::string path = writable_path(call, call.text(1, "path"));
-  warn_of(call, draw(call.self<Profile>(), keys.title, path));
-  return {path};
-}
 
 Values write_profile(Call& call) {
   const Profile& profile = call.self<Profile>();
@@ -157,7 +151,12 @@ Class make_class(For<Profile>) {
        .returns = "Profile",
        .example = "p:cut{ fraction=0.2 }"},
       {.name = "picture",
-       .body = picture_of_profile,
+       .body = [](Call& call) -> Values {
+         const ProfilePictureKeys keys = call.options(profile_picture_block, 2);
+         const std::string path = writable_path(call, call.text(1, "path"));
+         warn_of(call, draw(call.self<Profile>(), keys.title, path));
+         return {path};
+       },
        .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg, .png or .pdf.",
        .parameters = {{"path", "string", "under the run directory"}},
        .options = optional(profile_picture_block),

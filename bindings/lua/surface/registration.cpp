@@ -78,12 +78,6 @@ const RecordType<Registration> registration_type{
      {"second_best", &Registration::second_best,
       "the same of the best placement elsewhere, on coarser maps; near to `explained` it is a warning"}}};
 
-Values register_to(Call& call) {
-  const Surface& before = call.object<Surface>(1, "before");
-  const RegistrationOptions options = call.options(registration_block, 2);
-  return {registration_type(registered(call.self<Surface>(), before, options, call.session().monitor()))};
-}
-
 }  // namespace
 
 std::vector<const RecordInfo*> registration_types() {
@@ -94,7 +88,12 @@ std::vector<const RecordInfo*> registration_types() {
 Function registered_to_method() {
   return {
       .name = "registered_to",
-      .body = register_to,
+      .body = [](Call& call) -> Values {
+        const Surface& before = call.object<Surface>(1, "before");
+        const RegistrationOptions options = call.options(registration_block, 2);
+        return {
+            registration_type(registered(call.self<Surface>(), before, options, call.session().monitor()))};
+      },
       .sentence =
           "Registered to an earlier map of the same surface: shift, turn and tilt are found through wear, "
           "noise and holes, and nothing is stretched. Wear removes height: points lower than before do not "
