@@ -31,10 +31,6 @@ std::int64_t taken_bytes(const struct stat& facts) {
   return std::max<std::int64_t>(facts.st_size, std::int64_t{facts.st_blocks} * 512);
 }
 
-std::int64_t changed_at(const struct stat& facts) {
-  return std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec;
-}
-
 template <class Action>
 void each_entry(const fs::path& folder, const Action& action) {
   std::error_code problem;
@@ -87,8 +83,8 @@ std::string keep_within(const fs::path& folder, std::int64_t most_bytes, std::si
   std::vector<Written> all;
   DiskUse left;
   each_entry(folder, [&](const fs::path& path, const struct stat& facts) {
-    all.push_back(
-        {path, S_ISDIR(facts.st_mode), is_record(folder, path), taken_bytes(facts), changed_at(facts)});
+    const std::int64_t changed = std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec;
+    all.push_back({path, S_ISDIR(facts.st_mode), is_record(folder, path), taken_bytes(facts), changed});
     left.bytes += all.back().bytes;
     ++left.files;
     return true;

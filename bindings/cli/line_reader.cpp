@@ -160,10 +160,7 @@ LineReader::LineReader(LineHistory history, Complete complete)
   };
   try {
     editor_ = part_function<decltype(asperity_edit_open)>(editor_part, "asperity_edit_open")(&hooks);
-    for (const std::string& line : history_.lines())
-      if (editor_ != nullptr)
-        part_function<decltype(asperity_edit_remember)>(editor_part, "asperity_edit_remember")(editor_,
-                                                                                               line.c_str());
+    for (const std::string& line : history_.lines()) remember(line);
   } catch (const Error& error) {
     std::fprintf(stderr, "lines are not edited here: %s\n", error.what());
   }
@@ -172,6 +169,12 @@ LineReader::LineReader(LineHistory history, Complete complete)
 LineReader::~LineReader() {
   if (editor_ != nullptr)
     part_function<decltype(asperity_edit_close)>(editor_part, "asperity_edit_close")(editor_);
+}
+
+void LineReader::remember(const std::string& line) {
+  if (editor_ == nullptr) return;
+  part_function<decltype(asperity_edit_remember)>(editor_part, "asperity_edit_remember")(editor_,
+                                                                                         line.c_str());
 }
 
 int LineReader::ended_by() const {
@@ -230,9 +233,7 @@ LineReader::Event LineReader::read(const std::string& prompt, std::string& line)
   if (got < 0) return Event::given_up;
   if (got == 0) return Event::end;
   line = text;
-  if (history_.add(line))
-    part_function<decltype(asperity_edit_remember)>(editor_part, "asperity_edit_remember")(editor_,
-                                                                                           line.c_str());
+  if (history_.add(line)) remember(line);
   return Event::line;
 }
 

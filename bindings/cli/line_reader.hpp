@@ -53,6 +53,7 @@ class LineReader {
 
  private:
   Event read_plain(const std::string& prompt, std::string& line);
+  void remember(const std::string& line);
   int next_byte(unsigned char* byte);
   AsperityEditAnswer answer(std::string_view line, std::size_t before);
 

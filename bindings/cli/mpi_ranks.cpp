@@ -125,30 +125,8 @@ int MpiRanks::leave(int status) {
     if (stopped && status != 0) mpi_->abort(status);
     return leave_leading(status);
   }
-  if (stopped)
-    leave_stopped(status);
-  else
-    leave_following(status);
+  leave_following(status, stopped);
   return 0;
-}
-
-// Rank 0 ends all ranks once its record is safe.
-void MpiRanks::leave_stopped(int status) {
-  const auto begun = Clock::now();
-  for (;;) {
-    const std::optional<Message> message = receive();
-    if (message && message->kind == Kind::end) break;
-    if (Clock::now() - begun > patience_failed) {
-      scratch_.reset();
-      mpi_->abort(status);
-    }
-    if (!message) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ByteWriter out;
-  out.text("");
-  send(0, Kind::end, out.take());
-  scratch_.reset();
-  mpi_->close();
 }
 
 int MpiRanks::leave_leading(int status) {
@@ -186,15 +164,25 @@ int MpiRanks::leave_leading(int status) {
   return status;
 }
 
-void MpiRanks::leave_following(int status) {
-  ByteWriter out;
-  out.text(status != 0 && why_.empty() ? "it ended with status " + std::to_string(status) : why_);
-  send(0, Kind::end, out.take());
+// After a stop, rank 0 ends all ranks once its record is safe.
+void MpiRanks::leave_following(int status, bool stopped) {
+  const auto end = [this](const std::string& why) {
+    ByteWriter out;
+    out.text(why);
+    send(0, Kind::end, out.take());
+  };
+  if (!stopped) end(status != 0 && why_.empty() ? "it ended with status " + std::to_string(status) : why_);
+  const auto begun = Clock::now();
   for (;;) {
     const std::optional<Message> message = receive();
     if (message && message->kind == Kind::end) break;
+    if (stopped && Clock::now() - begun > patience_failed) {
+      scratch_.reset();
+      mpi_->abort(status);
+    }
     if (!message) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  if (stopped) end("");
   scratch_.reset();
   mpi_->close();
 }

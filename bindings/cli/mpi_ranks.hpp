@@ -43,8 +43,7 @@ class MpiRanks final : public Ranks {
   void send_bytes(int to, const std::string& bytes) override;
   std::optional<std::pair<int, std::string>> receive_bytes() override;
   int leave_leading(int status);
-  void leave_following(int status);
-  void leave_stopped(int status);
+  void leave_following(int status, bool stopped);
 
   const AsperityMpi* mpi_ = nullptr;
   std::unique_ptr<Team> team_;              // on first use

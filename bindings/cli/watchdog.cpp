@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/watchdog.hpp"
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 

@@ -28,7 +28,7 @@
 namespace asperity::lua {
 
 Function files_function();
-const Module& protocol_module();
+Module protocol_module();
 Module exact_module();
 Module spread_module();
 
@@ -82,17 +82,15 @@ Dimension kind_given(const std::string& text) {
   }
 }
 
-Values si_value(Call& call) {
-  if (call.argument(1).is_number()) return {call.argument(1).number()};
-  const std::string text = call.text(1, "quantity");
-  if (!call.given(2)) return {parse_quantity(text).value};
-  return {parse_quantity_as(text, kind_given(call.text(2, "kind")))};
-}
-
 Function quantity_function() {
   return {
       .name = "quantity",
-      .body = si_value,
+      .body = [](Call& call) -> Values {
+        if (call.argument(1).is_number()) return {call.argument(1).number()};
+        const std::string text = call.text(1, "quantity");
+        if (!call.given(2)) return {parse_quantity(text).value};
+        return {parse_quantity_as(text, kind_given(call.text(2, "kind")))};
+      },
       .sentence =
           "A quantity as a number in SI, as every key of the language takes it: lab.quantity \"250 um\" is "
           "2.5e-4. A plain number stays as it is.",
@@ -100,6 +98,11 @@ Function quantity_function() {
                      {"kind", "string?", "what it has to be: \"length\", \"pressure\", …, or a unit of it"}},
       .returns = "number",
       .example = "print(lab.quantity(\"640 HV\", \"pressure\"))"};
+}
+
+template <class... T>
+std::vector<const Class*> classes_of() {
+  return {&class_of<T>()...};
 }
 
 template <int numerator, int denominator = 1>
@@ -170,7 +173,6 @@ Module units_module() {
   };
 }
 
-// All modules and classes of the language, one per line.
 const std::vector<const Module*>& modules() {
   static const std::array<Module, 9> made{lab_module(),     units_module(),    surface_module(),
                                           profile_module(), protocol_module(), exact_module(),
@@ -183,37 +185,12 @@ const std::vector<const Module*>& modules() {
   return all;
 }
 const std::vector<const Class*>& classes() {
-  static const std::vector<const Class*> all = {
-      &class_of<Material>(),
-      &class_of<Surface>(),
-      &class_of<Profile>(),
-      &class_of<ArealParameters>(),
-      &class_of<MaterialRatioCurve>(),
-      &class_of<Autocorrelation>(),
-      &class_of<SpecimenPair>(),
-      &class_of<asperity::State>(),
-      &class_of<StateError>(),
-      &class_of<StateBounds>(),
-      &class_of<DiscretisationError>(),
-      &class_of<NamedField>(),
-      &class_of<Plan>(),
-      &class_of<LedgerReport>(),
-      &class_of<Stylus>(),
-      &class_of<Protocol>(),
-      &class_of<JunctionLaw>(),
-      &class_of<PartialSlip>(),
-      &class_of<TiltStage>(),
-      &class_of<Notebook>(),
-      &class_of<asperity::Table>(),
-      &class_of<Budget>(),
-      &class_of<Sensitivity>(),
-      &class_of<Study>(),
-      &class_of<StudyChoice>(),
-      &class_of<CalibrationReport>(),
-      &class_of<SlabSurface>(),
-      &class_of<SpreadContact>(),
-      &class_of<SpreadState>(),
-  };
+  static const std::vector<const Class*> all =
+      classes_of<Material, Surface, Profile, ArealParameters, MaterialRatioCurve, Autocorrelation,
+                 SpecimenPair, asperity::State, StateError, StateBounds, DiscretisationError, NamedField,
+                 Plan, LedgerReport, Stylus, Protocol, JunctionLaw, PartialSlip, TiltStage, Notebook,
+                 asperity::Table, Budget, Sensitivity, Study, StudyChoice, CalibrationReport, SlabSurface,
+                 SpreadContact, SpreadState>();
   return all;
 }
 

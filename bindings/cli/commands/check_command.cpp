@@ -20,6 +20,7 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/files/json.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
@@ -153,8 +154,7 @@ int cases(const RunCommand& command, bool list) {
   session.on_ensemble = [&](const std::string& place, std::size_t count,
                             const std::function<std::string(std::size_t)>& name) {
     const int ensemble = session.numbered_ensembles;
-    if (!list)
-      std::printf("ensemble %d, %s: %zu %s\n", ensemble, place.c_str(), count, count == 1 ? "case" : "cases");
+    if (!list) std::printf("ensemble %d, %s: %s\n", ensemble, place.c_str(), counted(count, "case").c_str());
     const std::string before = ensemble == 1 ? "" : std::to_string(ensemble) + ".";
     for (std::size_t k = 0; list && k < count; ++k)
       std::printf("%s%zu\t%s\n", before.c_str(), k + 1, name(k).c_str());

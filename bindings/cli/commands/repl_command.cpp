@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <utility>
 
 #include "bindings/cli/commands/run_command.hpp"
@@ -286,8 +285,7 @@ CommandReader declare_repl(CLI::App& options) {
   add_trust(options, asked.trust);
   options.footer(
       "help() explains, Tab completes, who lists the variables, show(surface) draws. Ctrl-C stops a line, "
-      "exit, "
-      "quit or Ctrl-D ends the session. From a pipe or a file the lines are read without prompts; exit "
+      "exit, quit or Ctrl-D ends the session. From a pipe or a file the lines are read without prompts; exit "
       "status 1 where one failed.");
 
   return [given]() -> CommandWork { return [given] { return repl(*given); }; };

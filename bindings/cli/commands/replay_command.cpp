@@ -7,10 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/commands/stored_results.hpp"

@@ -19,7 +19,6 @@
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
-#include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/cost.hpp"

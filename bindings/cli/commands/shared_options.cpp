@@ -20,8 +20,7 @@ namespace asperity::cli {
 
 namespace {
 
-std::optional<double> seconds_of(const std::string& text) {
-  if (text.empty()) return {};
+double seconds_of(const std::string& text) {
   try {
     const Quantity q = parse_quantity(text);
     if ((q.dimension == dimension::time || q.dimension == dimension::number) && q.value > 0) return q.value;
@@ -31,8 +30,7 @@ std::optional<double> seconds_of(const std::string& text) {
               "give a time such as 60s or \"2 min\"");
 }
 
-std::optional<std::int64_t> bytes_of(const std::string& text, const std::string& limit) {
-  if (text.empty()) return {};
+std::int64_t bytes_of(const std::string& text, const std::string& limit) {
   std::size_t used = 0;
   double value = -1;
   try {
@@ -110,6 +108,18 @@ CaseNumber parse_case(const std::string& text) {
               "give the number of a case, such as 17, or 2.17 for the second ensemble");
 }
 
+// An empty text gives no value.
+template <class T, class Parse>
+CLI::Option* add_parsed(CLI::App& options, const std::string& name, std::optional<T>& value, Parse parse,
+                        const std::string& help) {
+  return options.add_option_function<std::string>(
+      name,
+      [&value, parse](const std::string& text) {
+        if (!text.empty()) value = parse(text);
+      },
+      help);
+}
+
 }  // namespace
 
 void add_seed(CLI::App& options, std::uint64_t& seed) {
@@ -137,22 +147,21 @@ void add_knobs(CLI::App& options, GivenKnobs& knobs) {
           [&knobs](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) read_knob(knobs, text);
           },
-          "NAME=VALUE: what a knob of the script (lab.knob) is set to, e.g. --knob pressure=\"50 MPa\"; "
-          "may be given again")
+          "NAME=VALUE: what a knob of the script (lab.knob) is set to, e.g. --knob pressure=\"50 MPa\"; may "
+          "be given again")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
 }
 
 void add_seconds(CLI::App& options, const std::string& name, std::optional<double>& seconds,
                  const std::string& help) {
-  options.add_option_function<std::string>(
-      name, [&seconds](const std::string& text) { seconds = seconds_of(text); }, help);
+  add_parsed(options, name, seconds, seconds_of, help);
 }
 
 void add_bytes(CLI::App& options, const std::string& name, std::optional<std::int64_t>& bytes,
                const std::string& limit, const std::string& help) {
-  options.add_option_function<std::string>(
-      name, [&bytes, limit](const std::string& text) { bytes = bytes_of(text, limit); }, help);
+  add_parsed(
+      options, name, bytes, [limit](const std::string& text) { return bytes_of(text, limit); }, help);
 }
 
 void add_machine_options(CLI::App& options, int& threads, std::optional<std::int64_t>& memory) {
@@ -172,20 +181,18 @@ void add_trust(CLI::App& options, bool& trust) {
 }
 
 void add_confinement(CLI::App& options, RunCommand& run) {
-  options.add_flag(
-      "--confined", run.confined,
-      "for a script of somebody else's: it reads no file but those of --read, writes the run directory and "
-      "reaches no other file, process or network, by barriers of the operating system; 10 min, half the "
-      "machine's memory and 1 GiB on the disk unless told otherwise");
+  options.add_flag("--confined", run.confined,
+                   "for a script of somebody else's: it reads no file but those of --read, writes the run "
+                   "directory and reaches no other file, process or network, by barriers of the operating "
+                   "system; 10 min, half the machine's memory and 1 GiB on the disk unless told otherwise");
   options
       .add_option("--read", run.read,
                   "a folder that a confined script may read, such as its own; may be given again")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  options.add_option(
-      "--without-barriers", run.without_barriers,
-      "which barriers need not stand where the system cannot give them: files, processes, network, "
-      "programs, with commas between");
+  options.add_option("--without-barriers", run.without_barriers,
+                     "which barriers need not stand where the system cannot give them: files, processes, "
+                     "network, programs, with commas between");
   add_bytes(options, "--limit-disk", run.limit_disk, "the limit of the disk",
             "most bytes in the directory of a confined run, e.g. 4G (default 1G)");
 }
@@ -210,36 +217,27 @@ void add_store_options(CLI::App& options, RunCommand& run) {
       .add_option("--reuse", run.reuse,
                   "take the results of heavy calls that are the same from this run; may be given again")
       ->allow_extra_args(false);  // the script may follow
-  options.add_option_function<std::string>(
-      "--store-limit",
-      [&run](const std::string& text) {
-        run.store_limit = text == "0" ? 0 : bytes_of(text, "the limit of the store");
-      },
+  add_parsed(
+      options, "--store-limit", run.store_limit,
+      [](const std::string& text) { return text == "0" ? 0 : bytes_of(text, "the limit of the store"); },
       "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
   options.add_option(
       "--store", run.store,
       "keep results in this folder and find them there, instead of RUN/store; several runs, on several "
       "machines, may share it at the same time (no limit unless --store-limit is given)");
-  CLI::Option* share = options.add_option_function<std::string>(
-      "--shard",
-      [&run](const std::string& text) {
-        if (!text.empty()) run.shard = parse_shard(text);
-      },
+  CLI::Option* share = add_parsed(
+      options, "--shard", run.shard, parse_shard,
       "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
-      "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
-      "ensemble once all its cases are there, and else ends. A run without --shard puts all together");
-  CLI::Option* one = options.add_option_function<std::string>(
-      "--case",
-      [&run](const std::string& text) {
-        if (!text.empty()) run.one_case = parse_case(text);
-      },
-      "compute case 17, or case 17 of the second ensemble (2.17), into the folder given by "
-      "--store, and leave no run directory. Exit status: 0 it is stored, 1 it failed, 3 "
-      "cases of an earlier ensemble are missing. `asperity cases` lists the numbers");
-  CLI::Option* merge =
-      options.add_flag("--merge-only", run.merge_only,
-                       "compute no case: take all from the folder given by --store, or end with exit "
-                       "status 3 and the list of the missing cases");
+      "--store; slurm: i and n are those of this task of a job array. The script goes on past an ensemble "
+      "once all its cases are there, and else ends. A run without --shard puts all together");
+  CLI::Option* one = add_parsed(
+      options, "--case", run.one_case, parse_case,
+      "compute case 17, or case 17 of the second ensemble (2.17), into the folder given by --store, and "
+      "leave no run directory. Exit status: 0 it is stored, 1 it failed, 3 cases of an earlier ensemble are "
+      "missing. `asperity cases` lists the numbers");
+  CLI::Option* merge = options.add_flag("--merge-only", run.merge_only,
+                                        "compute no case: take all from the folder given by --store, or end "
+                                        "with exit status 3 and the list of the missing cases");
   for (CLI::Option* option : {share, one, merge})
     option->needs(options.get_option("--store"))->excludes(options.get_option("--trust"));
   for (CLI::Option* other :

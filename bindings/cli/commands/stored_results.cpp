@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "engine/core/error.hpp"
 #include "engine/core/program_identity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/run/recorded_run.hpp"
 #include "engine/run/run_folder.hpp"
 
 namespace asperity::cli {

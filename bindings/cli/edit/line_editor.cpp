@@ -4,9 +4,7 @@
 #include <histedit.h>
 
 #include <clocale>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <string>
 
 namespace {

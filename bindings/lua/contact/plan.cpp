@@ -26,8 +26,7 @@ const RecordType<PlannedBuffer> planned_buffer_type{
 
 }  // namespace
 
-template <>
-Class make_class<Plan>() {
+Class make_class(For<Plan>) {
   Class c{"Plan", "a plan",
           "Plan of a press: the computed terms and the expected cost; print() shows the whole plan."};
   c.fields = {

@@ -4,16 +4,13 @@
 #include <algorithm>
 
 #include "bindings/lua/registry/record.hpp"
-#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "bindings/lua/surface/surface.hpp"
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/contact/regions.hpp"
-#include "engine/contact/state.hpp"
 #include "engine/surface/io/hdf5_surface.hpp"
 
 namespace asperity::lua {
@@ -129,8 +126,7 @@ std::vector<RecordField<Certificate>> certificate_fields() {
 }
 
 // data table
-template <>
-Class make_class<asperity::State>() {
+Class make_class(For<asperity::State>) {
   using S = Contacting;
   Class c{"State", "a state",
           "A contact under load: an immutable value whose fields are computed when they are first read."};
@@ -154,35 +150,34 @@ Class make_class<asperity::State>() {
                         std::string(quantity.sentence) +
                             (quantity.effect.empty() ? "" : "; needs " + std::string(quantity.effect)),
                         quantity.dimension, quantity_value});
-  append(
-      c.fields,
-      getter<S>("preload", "number[]",
-                "the branch of bodies that attract each other: values of the prescribed quantity gone to in "
-                "turn before this one; empty where they were brought together from apart",
-                [](const S& of) { return of.preload(); }),
-      getter<&S::iterations>("iterations", "integer", "of the solver; 0 for a closed form"),
-      getter<&S::residual>("residual", "number", "greatest entry of the certificate"),
-      getter<S>("certificate", "Certificate",
-                "violations of the contact conditions, each relative; for bodies that attract each other "
-                "these bound tractions and not lengths: gaps and approaches may be off by more",
-                [](const S& of) { return certificate_type(of.certificate()); }),
-      getter<&S::converged>("converged", "boolean",
-                            "whether every entry of the certificate is within the tolerance"),
-      getter<S>("solver", "string", "the method of the solution", [](const S& of) { return of.solver(); }),
-      getter<S>("warnings", "string[]",
-                "doubts about the model: few nodes in contact, a contact at the rim of a free tile, steep "
-                "slopes, pressures near the modulus or above the hardness",
-                [](const S& of) { return state_limits(of); }),
-      getter<&S::effects_run>("effects_run", "string[]", "effects that were computed"),
-      getter<&S::effects_off>("effects_off", "string[]", "effects that the scene does not name"),
-      getter<S>("error", "StateError", "how far these numbers are from exact",
-                [](const S& of) { return object(StateError{of}); }),
-      getter<S>("chosen", "ChosenAccuracy?",
-                "cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise",
-                [](const S& of) { return chosen_record(of); }),
-      getter<S>("cost", "StateCost", "seconds, transforms, bytes, and by effect",
-                [](const S& of) { return state_cost_type(of.cost()); }),
-      getter<&S::digest>("digest", "string", "of pressures and approach"));
+  append(c.fields,
+         getter<S>("preload", "number[]",
+                   "the branch of bodies that attract each other: values of the prescribed quantity gone to "
+                   "in turn before this one; empty where they were brought together from apart",
+                   [](const S& of) { return of.preload(); }),
+         getter<&S::iterations>("iterations", "integer", "of the solver; 0 for a closed form"),
+         getter<&S::residual>("residual", "number", "greatest entry of the certificate"),
+         getter<S>("certificate", "Certificate",
+                   "violations of the contact conditions, each relative; for bodies that attract each other "
+                   "these bound tractions and not lengths: gaps and approaches may be off by more",
+                   [](const S& of) { return certificate_type(of.certificate()); }),
+         getter<&S::converged>("converged", "boolean",
+                               "whether every entry of the certificate is within the tolerance"),
+         getter<S>("solver", "string", "the method of the solution", [](const S& of) { return of.solver(); }),
+         getter<S>("warnings", "string[]",
+                   "doubts about the model: few nodes in contact, a contact at the rim of a free tile, steep "
+                   "slopes, pressures near the modulus or above the hardness",
+                   [](const S& of) { return state_limits(of); }),
+         getter<&S::effects_run>("effects_run", "string[]", "effects that were computed"),
+         getter<&S::effects_off>("effects_off", "string[]", "effects that the scene does not name"),
+         getter<S>("error", "StateError", "how far these numbers are from exact",
+                   [](const S& of) { return object(StateError{of}); }),
+         getter<S>("chosen", "ChosenAccuracy?",
+                   "cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise",
+                   [](const S& of) { return chosen_record(of); }),
+         getter<S>("cost", "StateCost", "seconds, transforms, bytes, and by effect",
+                   [](const S& of) { return state_cost_type(of.cost()); }),
+         getter<&S::digest>("digest", "string", "of pressures and approach"));
   c.methods = {
       {.name = "spot_areas",
        .body = method([](const Contacting& state) { return state.spot_areas(); }),
@@ -193,10 +188,9 @@ Class make_class<asperity::State>() {
        .body = method([](const Contacting& state, Call& call) {
          return state.open_path(call.options(path_block).along);
        }),
-       .sentence =
-           "Whether the nodes without contact join one side of the tile to the other by edges, so that "
-           "a fluid gets through. Across the path a periodic tile continues. Rough faces lose "
-           "the path at 35 to 60 % of the area.",
+       .sentence = "Whether the nodes without contact join one side of the tile to the other by edges, so "
+                   "that a fluid gets through. Across the path a periodic tile continues. Rough faces lose "
+                   "the path at 35 to 60 % of the area.",
        .options = optional(path_block),
        .returns = "boolean",
        .example = "print(st:open_path{ along=\"y\" })"},

@@ -18,12 +18,10 @@ namespace asperity::lua {
 // Common to all certificates; adhesive contacts add one.
 std::vector<RecordField<Certificate>> certificate_fields();
 
-template <>
-Class make_class<asperity::State>();
+Class make_class(For<asperity::State>);
 
 // The result of contact:explain (plan.cpp).
-template <>
-Class make_class<Plan>();
+Class make_class(For<Plan>);
 
 // st.error; computes its parts on demand.
 struct StateError {
@@ -35,18 +33,15 @@ struct StateBounds {
   asperity::State state;
 };
 
-template <>
-Class make_class<StateError>();
-template <>
-Class make_class<StateBounds>();
+Class make_class(For<StateError>);
+Class make_class(For<StateBounds>);
 
 // st.error.discretisation: estimates from the same press on coarser grids, read with the first quantity.
 struct DiscretisationError {
   asperity::State state;
 };
 
-template <>
-Class make_class<DiscretisationError>();
+Class make_class(For<DiscretisationError>);
 
 extern const RecordType<ChosenAccuracy> chosen_accuracy_type;
 extern const RecordType<TriedGrid> tried_grid_type;

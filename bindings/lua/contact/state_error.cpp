@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/contact/state_class.hpp"
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/record_type.hpp"
@@ -42,10 +40,39 @@ std::string describe_error(const Estimated& of) {
   return text;
 }
 
+const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_error(); }
+
+template <auto end>
+double contacts(const StateBounds& of) {
+  return static_cast<double>(bounds(of).contact_bracket.*end);
+}
+template <auto end>
+std::optional<double> yielded_share(const StateBounds& of) {
+  const AlgebraicError& e = bounds(of);
+  if (!e.yielded_bracket) return {};
+  return static_cast<double>((*e.yielded_bracket).*end) / static_cast<double>(e.nodes);
+}
+
+std::string describe_bounds(const StateBounds& of) {
+  const auto& state = of.state;
+  const AlgebraicError& e = state.algebraic_error();
+  Record record;
+  for (const char* name : {"load", "pressure", "approach", "separation", "mean_gap", "energy",
+                           "peak_pressure", "area_fraction", "plastic_volume", "plastic_fraction"}) {
+    const StateQuantity& quantity = *find_quantity(name);
+    if (const auto bound = quantity.bound(state)) record.add(name, *bound, quantity.dimension);
+  }
+  std::string text = "algebraic error, at most";
+  for (const Record::Entry& entry : record.entries)
+    text += "\n  " + entry.field + std::string(18 - entry.field.size(), ' ') + show(entry);
+  if (!std::isfinite(e.approach)) text += "\n  inf: no bound, as for bodies that attract each other";
+  return text + "\n  nodes in contact  " + std::to_string(e.contact_bracket.low) + " to " +
+         std::to_string(e.contact_bracket.high) + " of " + std::to_string(e.nodes);
+}
+
 }  // namespace
 
-template <>
-Class make_class<DiscretisationError>() {
+Class make_class(For<DiscretisationError>) {
   Class c{"DiscretisationError", "a discretisation error",
           "Estimated discretisation errors of a state, in the units of the quantities, from the same press "
           "on half and a quarter of the cells, or on thrice the cells with estimate=\"finer\"; math.huge "
@@ -112,49 +139,7 @@ Value chosen_record(const asperity::State& state) {
   return state.chosen() ? Value(chosen_accuracy_type(*state.chosen())) : Value();
 }
 
-namespace {
-
-const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_error(); }
-
-template <auto end>
-double contacts(const StateBounds& of) {
-  return static_cast<double>(bounds(of).contact_bracket.*end);
-}
-template <auto end>
-std::optional<double> yielded_share(const StateBounds& of) {
-  const AlgebraicError& e = bounds(of);
-  if (!e.yielded_bracket) return {};
-  return static_cast<double>((*e.yielded_bracket).*end) / static_cast<double>(e.nodes);
-}
-
-std::string describe_bounds(const StateBounds& of) {
-  const auto& state = of.state;
-  const AlgebraicError& e = state.algebraic_error();
-  Record record;
-  for (const char* name : {"load", "pressure", "approach", "separation", "mean_gap", "energy",
-                           "peak_pressure", "area_fraction", "plastic_volume", "plastic_fraction"}) {
-    const StateQuantity& quantity = *find_quantity(name);
-    if (const auto bound = quantity.bound(state)) record.add(name, *bound, quantity.dimension);
-  }
-  std::string text = "algebraic error, at most";
-  for (const Record::Entry& entry : record.entries)
-    text += "\n  " + entry.field + std::string(18 - entry.field.size(), ' ') + show(entry);
-  if (!std::isfinite(e.approach)) text += "\n  inf: no bound, as for bodies that attract each other";
-  return text + "\n  nodes in contact  " + std::to_string(e.contact_bracket.low) + " to " +
-         std::to_string(e.contact_bracket.high) + " of " + std::to_string(e.nodes);
-}
-
-std::string describe_errors(const StateError& of) {
-  const auto& state = of.state;
-  const DiscretisationError grid{state};
-  const StateBounds of_state{state};
-  return describe_bounds(of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
-}
-
-}  // namespace
-
-template <>
-Class make_class<StateBounds>() {
+Class make_class(For<StateBounds>) {
   Class c{"AlgebraicError", "an algebraic error",
           "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the "
           "units of the quantities; math.huge where nothing can be said, as of bodies that attract each "
@@ -195,11 +180,15 @@ Class make_class<StateBounds>() {
   return c;
 }
 
-template <>
-Class make_class<StateError>() {
+Class make_class(For<StateError>) {
   Class c{"StateError", "the error of a state",
           "Errors of a state by source; the sources are never combined. A part is found when it is read."};
-  c.describe = text_of<describe_errors>;
+  c.describe = from_value([](const StateError& of) -> std::string {
+    const auto& state = of.state;
+    const DiscretisationError grid{state};
+    const StateBounds of_state{state};
+    return describe_bounds(of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
+  });
   c.fields = {
       getter<StateError>("algebraic", "AlgebraicError", "bounds against the exact solution on the same grid",
                          [](const StateError& of) {

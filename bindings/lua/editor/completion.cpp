@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <tuple>
 
 #include "bindings/lua/editor/help.hpp"
@@ -44,23 +43,21 @@ class Completer {
     ScriptTokens tokens = read_tokens(text_);
     result_.from = text_.size();
     if (tokens.ends_in_comment) return std::move(result_);
-    std::vector<Token>& list = tokens.list;
-    if (!list.empty() && list.back().open) {
-      result_.from = list.back().content;
-      list.pop_back();
-      types_.emplace(text_, std::move(list), live_);
-      inside_text();
-    } else if (!list.empty() && list.back().end == text_.size() && list.back().kind == Token::Kind::number) {
-      return std::move(result_);
-    } else {
-      if (!list.empty() && list.back().end == text_.size() &&
-          (list.back().kind == Token::Kind::name || list.back().kind == Token::Kind::keyword)) {
-        result_.from = list.back().begin;
-        list.pop_back();
+    bool in_text = false;
+    if (!tokens.list.empty() && tokens.list.back().end == text_.size()) {
+      const Token last = tokens.list.back();
+      if (last.kind == Token::Kind::number) return std::move(result_);
+      in_text = last.open;
+      if (in_text || last.kind == Token::Kind::name || last.kind == Token::Kind::keyword) {
+        result_.from = in_text ? last.content : last.begin;
+        tokens.list.pop_back();
       }
-      types_.emplace(text_, std::move(list), live_);
-      in_code();
     }
+    types_.emplace(text_, std::move(tokens.list), live_);
+    if (in_text)
+      inside_text();
+    else
+      in_code();
     keep_fitting();
     return std::move(result_);
   }
@@ -72,20 +69,17 @@ class Completer {
 
   void in_code() {
     const std::size_t end = types().size();
-    if (end > 0 && (types().is(end - 1, ".") || types().is(end - 1, ":"))) {
-      if (end > 1) members(types().chain_ending_at(end - 2), types().is(end - 1, ":"));
+    const auto after = [&](std::string_view word) { return end > 0 && types().is(end - 1, word); };
+    if (after(".") || after(":")) {
+      if (end > 1) members(types().chain_ending_at(end - 2), after(":"));
       return;
     }
-    if (end > 0 && (types().is(end - 1, "for") || types().is(end - 1, "goto") || types().is(end - 1, "::") ||
-                    types().is(end - 1, "function")))
-      return;
-    if (end > 0 && types().is(end - 1, "local")) return add({"function", "keyword", "", ""});
+    if (after("for") || after("goto") || after("::") || after("function")) return;
+    if (after("local")) return add({"function", "keyword", "", ""});
     const std::size_t brace = types().around(end);
-    if (brace != none && types().is(brace, "{") && begins_item(end)) {
-      if (const BlockInfo* block = block_of(brace)) {
+    if (brace != none && types().is(brace, "{") && begins_item(end))
+      if (const BlockInfo* block = block_of(brace))
         if (!block->is_list() || is_item_of_list(brace)) return keys(*block, brace);
-      }
-    }
     words_of(role_of(end), true);
     names();
   }
@@ -125,7 +119,6 @@ class Completer {
 
   // Options of the table at `brace`; null if unknown.
   const BlockInfo* block_of(std::size_t brace) const {
-    // Bounds the recursion.
     constexpr int deepest = 100;
     if (nested_ >= deepest) return nullptr;
     if (const auto known = blocks_.find(brace); known != blocks_.end()) return known->second;
@@ -190,8 +183,6 @@ class Completer {
     return n == function->parameters.size() ? Role{nullptr, nullptr, function, {}} : Role{};
   }
 
-  // --- candidates
-
   void members(const ScriptType& of, bool methods_only) {
     if (const auto* held = of.as<const Module*>()) {
       const Module& module = **held;
@@ -206,12 +197,10 @@ class Completer {
       for (const Function& method : (*type)->methods) add(of_function(method));
     } else if (const auto* record = of.as<const RecordInfo*>()) {
       if (!methods_only) fields((*record)->fields);
-    } else if (const auto* list = of.as<ScriptType::List>(); list != nullptr && list->fields != nullptr) {
-      if (!methods_only)
-        for (const auto& [name, field] : *list->fields) add({name, "value", type_text(field), ""});
     } else if (const auto* table = of.as<ScriptType::Table>()) {
-      for (const auto& [name, field] : *table->fields)
-        if (!methods_only) add({name, kind_of(field), type_text(field), ""});
+      if (!methods_only && table->fields != nullptr)
+        for (const auto& [name, field] : *table->fields)
+          add({name, table->element != nullptr ? "value" : kind_of(field), type_text(field), ""});
     } else if (const auto* library = of.as<ScriptType::Library>()) {
       if (!methods_only) of_library(library->path);
     } else if (of.as<ScriptType::Text>() != nullptr && methods_only) {
@@ -237,8 +226,7 @@ class Completer {
   void keys(const BlockInfo& block, std::size_t brace) {
     std::set<std::string, std::less<>> given;
     for (std::size_t k = brace + 1; k + 1 < types().size(); ++k) {
-      if (types().token(k).kind == Token::Kind::name && types().is(k + 1, "=") &&
-          (types().is(k - 1, "{") || types().is(k - 1, ",") || types().is(k - 1, ";")))
+      if (types().token(k).kind == Token::Kind::name && types().is(k + 1, "=") && begins_item(k))
         given.emplace(types().word(k));
       const std::size_t partner = types().partner(k);
       if (partner != none && partner > k) k = partner;
@@ -280,20 +268,16 @@ class Completer {
   }
 
   void words_of(const Role& role, bool with_quotes) {
-    const std::string type = role.option != nullptr      ? role.option->type
-                             : role.parameter != nullptr ? role.parameter->type
-                                                         : "";
-    const std::string help = role.option != nullptr      ? role.option->sentence
-                             : role.parameter != nullptr ? role.parameter->sentence
-                                                         : "";
-    for (const std::string& word : words_in(type))
-      add({with_quotes ? "\"" + word + "\"" : word, "value",
-           role.option != nullptr ? role.option->name : role.parameter->name, help});
-    if (with_quotes && role.option != nullptr && type.find("boolean") != std::string::npos)
-      for (const char* word : {"true", "false"}) add({word, "value", role.option->name, help});
-    const Function* material =
-        types().name_type("lab").as<const Module*>() != nullptr ? role.function : nullptr;
-    if (material != nullptr && !with_quotes && qualified_name(*material) == "lab.material")
+    const auto words = [&](const auto& named) {
+      for (const std::string& word : words_in(named.type))
+        add({with_quotes ? "\"" + word + "\"" : word, "value", named.name, named.sentence});
+    };
+    if (role.option != nullptr) words(*role.option);
+    if (role.parameter != nullptr) words(*role.parameter);
+    if (with_quotes && role.option != nullptr && role.option->type.find("boolean") != std::string::npos)
+      for (const char* word : {"true", "false"})
+        add({word, "value", role.option->name, role.option->sentence});
+    if (!with_quotes && role.function != nullptr && qualified_name(*role.function) == "lab.material")
       for (const Material& known : named_materials())
         add({known.name, "value",
              known.young ? format_quantity(*known.young, dimension::pressure) : std::string(), known.source});
@@ -330,20 +314,15 @@ class Completer {
   void quantity_words(Dimension wanted, const std::string& default_text) {
     if (wanted == dimension::number) return;
     const std::string_view content = text_.substr(result_.from);
-    std::size_t number = 0;
-    while (number < content.size() &&
-           (std::isdigit(static_cast<unsigned char>(content[number])) != 0 || content[number] == '.' ||
-            content[number] == '-' || content[number] == '+'))
-      ++number;
     if (content.empty()) {
       const bool quantity = default_text.starts_with("\"") && default_text.ends_with("\"");
       add({quantity ? default_text.substr(1, default_text.size() - 2) : example_quantity(wanted), "value",
            quantity ? "the default" : describe(wanted), ""});
       return;
     }
+    const std::size_t number = std::min(content.find_first_not_of("0123456789.-+"), content.size());
     if (number == 0) return;
-    std::size_t unit = number;
-    while (unit < content.size() && content[unit] == ' ') ++unit;
+    const std::size_t unit = std::min(content.find_first_not_of(' ', number), content.size());
     result_.from += unit;
     const std::string space = unit == number ? " " : "";
     for (const std::string& name : usual_units(wanted)) add({space + name, "value", describe(wanted), ""});
@@ -351,13 +330,10 @@ class Completer {
   }
 
   void names() {
-    std::set<std::string> seen;
-    const auto variable = [&](const std::string& name, const ScriptType& type) {
-      if (seen.insert(name).second) add({name, "global", type_text(type), ""});
-    };
-    for (const auto& [name, type] : types().names()) variable(std::string(name), type);
+    const auto& own = types().names();
+    for (const auto& [name, type] : own) add({std::string(name), "global", type_text(type), ""});
     for (const LuaName& name : lua_names())
-      if (name.library.empty() && seen.insert(name.name).second)
+      if (name.library.empty() && !own.contains(name.name))
         add({name.name, "global", name.is_function ? "a function of Lua" : "of Lua", ""});
     for (const std::string_view word : keywords()) add({std::string(word), "keyword", "", ""});
   }
@@ -367,11 +343,9 @@ class Completer {
     const auto fits = [&](const std::string& candidate, bool any_case) {
       const std::string_view whole = std::string_view(candidate).substr(leading_space_ ? 1 : 0);
       if (typed.size() > whole.size()) return false;
-      return std::equal(typed.begin(), typed.end(), whole.begin(), [&](char a, char b) {
-        return any_case ? std::tolower(static_cast<unsigned char>(a)) ==
-                              std::tolower(static_cast<unsigned char>(b))
-                        : a == b;
-      });
+      const auto letter = [&](char c) { return any_case ? std::tolower(static_cast<unsigned char>(c)) : c; };
+      return std::equal(typed.begin(), typed.end(), whole.begin(),
+                        [&](char a, char b) { return letter(a) == letter(b); });
     };
     std::vector<Candidate>& all = result_.candidates;
     const bool any_case =
@@ -387,14 +361,6 @@ class Completer {
   mutable int nested_ = 0;                                  // recursion depth of block_of()
   bool leading_space_ = false;                              // of candidates
 };
-
-}  // namespace
-
-Completion complete(std::string_view text, std::size_t position, const std::vector<LiveGlobal>& live) {
-  return Completer(text, std::min(position, text.size()), live).complete();
-}
-
-namespace {
 
 // Refusals of the sandbox have an upvalue `what`.
 bool is_refused(lua_State* L, int index) {
@@ -433,6 +399,10 @@ std::vector<LuaName> read_names() {
 }
 
 }  // namespace
+
+Completion complete(std::string_view text, std::size_t position, const std::vector<LiveGlobal>& live) {
+  return Completer(text, std::min(position, text.size()), live).complete();
+}
 
 const std::vector<LuaName>& lua_names() {
   static const std::vector<LuaName> names = read_names();

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "bindings/lua/registry/record_type.hpp"
 #include "engine/core/error.hpp"
@@ -83,7 +82,6 @@ std::string padded(const std::string& text, std::size_t width) {
   return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
 }
 
-// A line of help or reference.
 struct Row {
   std::string name, accepts, meaning;
 };
@@ -94,7 +92,6 @@ std::vector<Row> rows_of(const std::vector<Getter>& fields) {
   return rows;
 }
 
-// Parameters and options.
 std::vector<Row> rows_of(const Function& function) {
   std::vector<Row> rows;
   for (const Parameter& p : function.parameters) rows.push_back({p.name, p.type, p.sentence});
@@ -278,11 +275,7 @@ const std::vector<NamedOption>& all_options() {
   return all;
 }
 
-bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-  });
-}
+bool same_word(std::string_view a, std::string_view b) { return lower_case(a) == lower_case(b); }
 
 std::string keys_help(const std::string& name) {
   std::string text;
@@ -292,8 +285,6 @@ std::string keys_help(const std::string& name) {
           "Key `" + path + "` of " + call + ": " + option->sentence + " (" + describe_option(*option) + ")\n";
   return text;
 }
-
-// --- search
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
@@ -387,8 +378,6 @@ std::string question_help(const std::string& asked, const std::vector<Topic>& to
     found += "  " + topics[scores[k].topic].name + ": " + topics[scores[k].topic].sentence + "\n";
   return found.empty() ? "" : "nearest to " + quoted(asked) + " are\n" + found;
 }
-
-// --- the reference page
 
 std::string cell(std::string text) {
   std::string result;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "bindings/lua/editor/completion.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/record.hpp"
@@ -27,12 +26,7 @@ constexpr const char* chunk_name = "=prompt";
 int keep_action(lua_State* L) {
   lua_newtable(L);
   lua_pushglobaltable(L);
-  lua_pushnil(L);
-  while (lua_next(L, -2) != 0) {
-    lua_pushvalue(L, -2);
-    lua_insert(L, -2);
-    lua_rawset(L, -5);
-  }
+  copy_entries(L, 2, 1);
   lua_pop(L, 1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &kept_key);
   return 0;
@@ -52,12 +46,7 @@ int restore_action(lua_State* L) {
     }
     lua_pop(L, 1);
   }
-  lua_pushnil(L);
-  while (lua_next(L, 1) != 0) {
-    lua_pushvalue(L, -2);
-    lua_insert(L, -2);
-    lua_rawset(L, 2);
-  }
+  copy_entries(L, 1, 2);
   return 0;
 }
 
@@ -175,15 +164,14 @@ Prompt::Outcome Prompt::take(std::string_view line, int number) {
   }
   if (command == "exit" || command == "exit()" || command == "quit" || command == "quit()")
     return Outcome::end;
-  // The owner of a call's field gives the unit.
-  const std::size_t owner = owner_of_field(text);
-  const std::string with_owner = owner == 0 ? ""
-                                            : "local result = " + text.substr(0, owner) + " return result" +
-                                                  text.substr(owner) + ", result";
   if (load(before + "return " + text)) {
+    // The owner of a call's field gives the unit.
+    const std::size_t owner = owner_of_field(text);
     if (owner > 0) {
       lua_pop(L, 1);
-      if (!load(before + with_owner)) lua_pop(L, 1), load(before + "return " + text);
+      if (!load(before + "local result = " + text.substr(0, owner) + " return result" + text.substr(owner) +
+                ", result"))
+        lua_pop(L, 1), load(before + "return " + text);
     }
     waiting_.clear();
     return run(text, true, owner > 0);
@@ -215,7 +203,8 @@ Prompt::Outcome Prompt::run_again(const std::string& script, const std::string& 
 }
 
 Prompt::Outcome Prompt::run(const std::string& text, bool is_expression, bool has_owner) {
-  keep_globals();
+  auto keep = [](lua_State* state) { return keep_action(state); };
+  if (protect(L, 0, 0, keep) != LUA_OK) lua_pop(L, 1);
   lua_pushcfunction(L, traceback_handler);
   lua_insert(L, -2);
   const int handler = lua_gettop(L) - 1;
@@ -239,10 +228,8 @@ void Prompt::remember(const std::string& text, bool is_expression) {
   std::size_t end = script.size();
   while (end > 0 && script.is(end - 1, ";")) --end;
   if (end == 0) return;
-  const auto words = [&](const std::string& of) {
-    return of.substr(script.token(0).begin, script.token(end - 1).end - script.token(0).begin);
-  };
-  const std::string line = words(text);
+  const std::size_t begin = script.token(0).begin;
+  const std::string line = text.substr(begin, script.token(end - 1).end - begin);
   const bool moves = script.word(0) == "lab" && script.is(1, ".") && script.word(2) == "knob" &&
                      script.is(3, ".") && script.word(4) == "set";
   if (moves) return;  // the rerun notes the change
@@ -375,11 +362,6 @@ std::vector<LiveGlobal> Prompt::live_globals() const {
     globals.push_back(std::move(global));
   });
   return globals;
-}
-
-void Prompt::keep_globals() {
-  auto action = [](lua_State* state) { return keep_action(state); };
-  if (protect(L, 0, 0, action) != LUA_OK) lua_pop(L, 1);
 }
 
 void Prompt::restore_globals() {

@@ -45,7 +45,6 @@ class Prompt {
   std::string with_unit(const std::string& expression, int index) const;
   std::string with_unit_of(int owner, std::string_view field, int index) const;
   std::vector<LiveGlobal> live_globals() const;
-  void keep_globals();
   void restore_globals();
 
   lua_State* L;
@@ -60,8 +59,6 @@ std::string with_lasting_locals(const std::string& text);
 
 // Raises a Lua error without memory.
 void push_show(lua_State* L);
-
-// --- values as text (show.cpp)
 
 // "814.7 pm (8.147e-10 m)"
 std::string shown_quantity(double value, Dimension dimension);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "bindings/lua/registry/registry.hpp"
 
@@ -122,23 +121,6 @@ class Lexer {
   ScriptTokens tokens_;
 };
 
-}  // namespace
-
-const std::vector<std::string_view>& keywords() {
-  static const std::vector<std::string_view> words = {
-      "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
-      "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
-  return words;
-}
-
-bool is_keyword(std::string_view word) {
-  return std::binary_search(keywords().begin(), keywords().end(), word);
-}
-
-ScriptTokens read_tokens(std::string_view script) { return Lexer(script).read(); }
-
-namespace {
-
 constexpr int deepest_brackets = 40;  // deeper values are unknown
 
 // Empty for words that open nothing.
@@ -194,17 +176,13 @@ ScriptType live_type(const LiveGlobal& global) {
   if (global.fields.empty()) return script_type(global.type);
   auto fields = std::make_shared<ScriptType::Fields>();
   for (const LiveGlobal& field : global.fields) (*fields)[field.name] = live_type(field);
-  return {ScriptType::Table{std::move(fields)}};
+  return {ScriptType::Table{nullptr, std::move(fields)}};
 }
 
 ScriptType member(const ScriptType& of, std::string_view name) {
   const auto named = [&](const auto& list) {
     const auto entry = std::find_if(list.begin(), list.end(), [&](const auto& e) { return e.name == name; });
     return entry == list.end() ? nullptr : &*entry;
-  };
-  const auto in = [&](const auto& fields) {
-    const auto field = fields->find(name);
-    return field == fields->end() ? ScriptType{} : field->second;
   };
   if (const auto* module = of.as<const Module*>()) {
     if (const auto* function = named((*module)->functions)) return {function};
@@ -220,10 +198,12 @@ ScriptType member(const ScriptType& of, std::string_view name) {
     const auto* field = named((*record)->fields);
     return field != nullptr ? script_type(field->type) : ScriptType{};
   }
-  if (const auto* map = of.as<ScriptType::Map>()) return *map->element;
-  if (const auto* list = of.as<ScriptType::List>())
-    return list->fields != nullptr ? in(list->fields) : ScriptType{};
-  if (const auto* table = of.as<ScriptType::Table>()) return in(table->fields);
+  if (const auto* table = of.as<ScriptType::Table>()) {
+    if (table->is_map) return *table->element;
+    if (table->fields == nullptr) return {};
+    const auto field = table->fields->find(name);
+    return field == table->fields->end() ? ScriptType{} : field->second;
+  }
   if (const auto* library = of.as<ScriptType::Library>())
     return {ScriptType::Library{library->path + "." + std::string(name)}};
   if (of.as<ScriptType::Text>() != nullptr) return {ScriptType::Library{"string." + std::string(name)}};
@@ -232,17 +212,32 @@ ScriptType member(const ScriptType& of, std::string_view name) {
 
 }  // namespace
 
+const std::vector<std::string_view>& keywords() {
+  static const std::vector<std::string_view> words = {
+      "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
+      "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
+  return words;
+}
+
+bool is_keyword(std::string_view word) {
+  return std::binary_search(keywords().begin(), keywords().end(), word);
+}
+
+ScriptTokens read_tokens(std::string_view script) { return Lexer(script).read(); }
+
 ScriptType script_type(std::string_view text) {
+  const auto element = [](std::string_view of) {
+    return std::make_shared<const ScriptType>(script_type(of));
+  };
   if (text.ends_with("?")) return script_type(text.substr(0, text.size() - 1));
   if (const std::size_t at = text.find("[] with "); at != std::string_view::npos) {
     auto fields = std::make_shared<ScriptType::Fields>();
     for (const auto& [name, type] : named_fields(text)) (*fields)[std::string(name)] = script_type(type);
-    return {ScriptType::List{std::make_shared<const ScriptType>(script_type(text.substr(0, at))), fields}};
+    return {ScriptType::Table{element(text.substr(0, at)), fields}};
   }
   constexpr std::string_view map = "table<string, ";
   if (text.starts_with(map))
-    return {ScriptType::Map{std::make_shared<const ScriptType>(
-        script_type(text.substr(map.size(), text.size() - map.size() - 1)))}};
+    return {ScriptType::Table{element(text.substr(map.size(), text.size() - map.size() - 1)), nullptr, true}};
   if (text.starts_with("iterator<"))
     return {ScriptType::Iterator{
         std::make_shared<const ScriptTypeList>(types_of_turn(text.substr(9, text.size() - 10)))}};
@@ -251,9 +246,7 @@ ScriptType script_type(std::string_view text) {
     const ScriptType first = script_type(text.substr(0, bar));
     return first.known() ? first : script_type(text.substr(bar + 1));
   }
-  if (text.ends_with("[]"))
-    return {
-        ScriptType::List{std::make_shared<const ScriptType>(script_type(text.substr(0, text.size() - 2)))}};
+  if (text.ends_with("[]")) return {ScriptType::Table{element(text.substr(0, text.size() - 2))}};
   if (text == "number" || text == "integer") return {ScriptType::Number{}};
   if (text == "string") return {ScriptType::Text{}};
   if (const Class* type = find_class(text)) return {type};
@@ -264,24 +257,18 @@ ScriptType script_type(std::string_view text) {
 }
 
 std::string type_text(const ScriptType& type) {
-  struct Shower {
-    std::string operator()(ScriptType::Unknown) const { return ""; }
-    std::string operator()(ScriptType::Number) const { return "a number"; }
-    std::string operator()(ScriptType::Text) const { return "a string"; }
-    std::string operator()(const Module* module) const { return module->path; }
-    std::string operator()(const Class* type) const { return type->article_name; }
-    std::string operator()(const RecordInfo* type) const { return "a " + type->title + " result"; }
-    std::string operator()(const Function* function) const { return qualified_name(*function); }
-    std::string operator()(const ScriptType::List& list) const {
-      const std::string element = type_text(*list.element);
-      return "a list" + (element.empty() ? "" : ", each " + element);
-    }
-    std::string operator()(const ScriptType::Map&) const { return "a result"; }
-    std::string operator()(const ScriptType::Iterator&) const { return "an iterator"; }
-    std::string operator()(const ScriptType::Table&) const { return "a table"; }
-    std::string operator()(const ScriptType::Library&) const { return ""; }
-  };
-  return std::visit(Shower{}, type.data);
+  if (type.as<ScriptType::Number>() != nullptr) return "a number";
+  if (type.as<ScriptType::Text>() != nullptr) return "a string";
+  if (type.as<ScriptType::Iterator>() != nullptr) return "an iterator";
+  if (const auto* module = type.as<const Module*>()) return (*module)->path;
+  if (const auto* value = type.as<const Class*>()) return (*value)->article_name;
+  if (const auto* record = type.as<const RecordInfo*>()) return "a " + (*record)->title + " result";
+  if (const auto* function = type.as<const Function*>()) return qualified_name(**function);
+  const auto* table = type.as<ScriptType::Table>();
+  if (table == nullptr) return "";
+  if (table->element == nullptr || table->is_map) return table->is_map ? "a result" : "a table";
+  const std::string element = type_text(*table->element);
+  return "a list" + (element.empty() ? "" : ", each " + element);
 }
 
 ScriptTypes::ScriptTypes(std::string_view text, std::vector<Token> tokens,
@@ -329,7 +316,6 @@ void ScriptTypes::match_brackets() {
 // `a, b = values`, `local a <const>, b = values`, `for a, b in values do`, `for a = values do`, `function
 // f(a, b)`.
 void ScriptTypes::read_assignments() {
-  std::size_t first = none;  // of the list of names
   for (std::size_t k = 0; k < size(); ++k) {
     ++steps_;
     if (is(k, "function")) {
@@ -342,33 +328,32 @@ void ScriptTypes::read_assignments() {
       steps_ += n - k;
       k = n - 1;
     } else if (is_name(k) && (k == 0 || (!is(k - 1, ".") && !is(k - 1, ":")))) {
-      if (first == none || !is(k - 1, ",")) first = k;
-      if (is(k + 1, "<")) k = std::min(k + 3, size() - 1);  // <const>, <close>
-    } else if (first != none && (is(k, "=") || is(k, "in"))) {
-      const std::size_t bracket = around_[k];
-      const bool key = is(bracket, "{") || is(bracket, "(") || is(bracket, "[");
-      if (!key) assign(first, k + 1, is(k, "in"));
-      first = none;
-    } else if (!is(k, ",")) {
-      first = none;
-      if (is(k, "local")) forget(k + 1);
+      const bool local = k > 0 && is(k - 1, "local");
+      const std::vector<std::string_view> names = name_list(k);
+      steps_ += names.size();
+      if (is(k, "=") || is(k, "in")) {
+        const std::size_t bracket = around_[k];
+        const bool key = is(bracket, "{") || is(bracket, "(") || is(bracket, "[");
+        if (!key) assign(names, k + 1, is(k, "in"));
+      } else if (local) {
+        for (const std::string_view name : names) names_[name] = {};
+      }
+      --k;
     }
   }
 }
 
-// The names after `local`; assignments follow.
-void ScriptTypes::forget(std::size_t k) {
-  std::vector<std::string_view> listed;
-  for (; is_name(k); ++k) {
-    listed.push_back(word(k));
-    if (is(k + 1, "<")) k += 3;  // <const>, <close>
-    if (!is(++k, ",")) break;
+// `a <const>, b`: moves k past the last name.
+std::vector<std::string_view> ScriptTypes::name_list(std::size_t& k) const {
+  std::vector<std::string_view> names;
+  for (;; ++k) {
+    names.push_back(word(k++));
+    if (is(k, "<")) k += 3;  // <const>, <close>
+    if (!is(k, ",") || !is_name(k + 1)) return names;
   }
-  if (is(k, "=")) return;
-  for (const std::string_view name : listed) names_[name] = {};
 }
 
-void ScriptTypes::assign(std::size_t first, std::size_t values, bool loop) {
+void ScriptTypes::assign(const std::vector<std::string_view>& names, std::size_t values, bool loop) {
   std::size_t k = values;
   ScriptTypeList types;
   for (;;) {
@@ -388,12 +373,8 @@ void ScriptTypes::assign(std::size_t first, std::size_t values, bool loop) {
     const auto* iterator = types.front().as<ScriptType::Iterator>();
     types = iterator != nullptr ? *iterator->turn : ScriptTypeList{};
   }
-  std::size_t n = 0;
-  for (std::size_t at = first; at + 1 < values; ++at) {
-    if (!is_name(at) || is(at - 1, "<")) continue;
-    names_[word(at)] = n < types.size() ? types[n] : ScriptType{};
-    ++n;
-  }
+  types.resize(std::max(types.size(), names.size()));
+  for (std::size_t n = 0; n < names.size(); ++n) names_[names[n]] = types[n];
 }
 
 // An operator's type comes from the native value on either side; `or` gives the first known type.
@@ -459,9 +440,8 @@ void ScriptTypes::suffixes(std::size_t& k, std::size_t stop, int depth, ScriptTy
       types = {member(now, word(k + 1))};
       k += 2;
     } else if (is(k, "[")) {
-      const auto* list = now.as<ScriptType::List>();
-      const auto* map = now.as<ScriptType::Map>();
-      types = {list != nullptr ? *list->element : map != nullptr ? *map->element : ScriptType{}};
+      const auto* table = now.as<ScriptType::Table>();
+      types = {table != nullptr && table->element != nullptr ? *table->element : ScriptType{}};
       k = past(k, stop);
     } else if (is(k, "(") || is(k, "{")) {
       types = call(now, k, depth);
@@ -491,20 +471,15 @@ ScriptTypeList ScriptTypes::call(const ScriptType& function, std::size_t argumen
                    tokens_[k].end - tokens_[k].content == 9
                ? ScriptTypeList{script_type("lab")}
                : ScriptTypeList{};
-  if (path == "ipairs" || path == "pairs" || path == "assert" || path == "setmetatable") {
-    ScriptTypeList first = value(k, size(), depth + 1);
-    first.resize(1);
-    if (path == "assert" || path == "setmetatable") return first;
-    const auto* list = first[0].as<ScriptType::List>();
-    const auto* map = path == "pairs" ? first[0].as<ScriptType::Map>() : nullptr;
-    const ScriptType key = map == nullptr ? ScriptType{ScriptType::Number{}} : ScriptType{ScriptType::Text{}};
-    const ScriptType of = list != nullptr ? *list->element : map != nullptr ? *map->element : ScriptType{};
-    return {{ScriptType::Iterator{std::make_shared<const ScriptTypeList>(ScriptTypeList{key, of})}}};
-  }
-  if (path.starts_with("math.")) return {{ScriptType::Number{}}};
-  if (path.starts_with("string.") || path == "tostring" || path == "type" || path == "table.concat")
-    return {{ScriptType::Text{}}};
-  return {};
+  if (path != "ipairs" && path != "pairs") return {};
+  ScriptTypeList first = value(k, size(), depth + 1);
+  first.resize(1);
+  const auto* table = first[0].as<ScriptType::Table>();
+  const bool known = table != nullptr && table->element != nullptr && (path == "pairs" || !table->is_map);
+  const ScriptType key =
+      known && table->is_map ? ScriptType{ScriptType::Text{}} : ScriptType{ScriptType::Number{}};
+  const ScriptType of = known ? *table->element : ScriptType{};
+  return {{ScriptType::Iterator{std::make_shared<const ScriptTypeList>(ScriptTypeList{key, of})}}};
 }
 
 std::size_t ScriptTypes::chain_begin(std::size_t last) const {
@@ -542,8 +517,7 @@ ScriptType ScriptTypes::name_type(std::string_view name) const {
   // Also in a script without `require`.
   if (name == "lab") return script_type("lab");
   for (const std::string_view library :
-       {"string", "table", "math", "os", "io", "coroutine", "utf8", "require", "ipairs", "pairs", "assert",
-        "setmetatable", "tostring", "type"})
+       {"string", "table", "math", "os", "io", "coroutine", "utf8", "require", "ipairs", "pairs"})
     if (name == library) return {ScriptType::Library{std::string(name)}};
   return {};
 }

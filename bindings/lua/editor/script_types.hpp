@@ -47,27 +47,21 @@ struct ScriptType {
   struct Number {};
   struct Text {};
   using Fields = std::map<std::string, ScriptType, std::less<>>;
-  struct List {
-    std::shared_ptr<const ScriptType> element;
-    std::shared_ptr<const Fields> fields{};  // of the list; may be null
-  };
-  // Fields with any name and one type: costs by effect.
-  struct Map {
-    std::shared_ptr<const ScriptType> element;
+  // A list, a map (costs by effect), or a plain table at a prompt.
+  struct Table {
+    std::shared_ptr<const ScriptType> element{};  // of a list or map, else null
+    std::shared_ptr<const Fields> fields{};       // may be null
+    bool is_map = false;                          // each name has the element's type
   };
   struct Iterator {
     std::shared_ptr<const ScriptTypeList> turn;  // the values of one turn
-  };
-  // A plain table at a prompt.
-  struct Table {
-    std::shared_ptr<const Fields> fields;
   };
   // "math", "math.floor", "ipairs".
   struct Library {
     std::string path;
   };
-  std::variant<Unknown, Number, Text, const Module*, const Class*, const RecordInfo*, const Function*, List,
-               Map, Iterator, Table, Library>
+  std::variant<Unknown, Number, Text, const Module*, const Class*, const RecordInfo*, const Function*, Table,
+               Iterator, Library>
       data{};
 
   bool known() const { return !std::holds_alternative<Unknown>(data); }
@@ -102,7 +96,6 @@ class ScriptTypes {
   std::string_view word(std::size_t k) const {
     return text_.substr(tokens_[k].begin, tokens_[k].end - tokens_[k].begin);
   }
-  // Whether token k is this sign or keyword.
   bool is(std::size_t k, std::string_view word_or_sign) const;
 
   // The token that opens the innermost bracket or block around token k, or around the end of the text (k =
@@ -125,8 +118,8 @@ class ScriptTypes {
  private:
   void match_brackets();
   void read_assignments();
-  void forget(std::size_t k);
-  void assign(std::size_t first, std::size_t values, bool loop);
+  std::vector<std::string_view> name_list(std::size_t& k) const;
+  void assign(const std::vector<std::string_view>& names, std::size_t values, bool loop);
   bool is_name(std::size_t k) const { return k < size() && tokens_[k].kind == Token::Kind::name; }
 
   // Each reads from token k on and moves k past its end; `stop` is the token after the last that may be read.

@@ -80,7 +80,7 @@ void show_profile(const Call& call, const Profile& profile) {
 }
 
 void show_notebook(const Call& call, const Notebook& notebook) {
-  const NotebookChart options = call.options(notebook_chart_block(), 2);
+  const NotebookChart options = call.options(notebook_chart_block, 2);
   std::vector<std::string> warnings;
   if (options.file) {
     const DrawnChart drawn = draw_chart(*call.session().run, notebook, options);

@@ -124,7 +124,6 @@ class ScriptedBatch final : public CallBatch {
     return answer;
   }
 
-  // To the run or the enclosing case.
   void note(const CaseResult& result) {
     for (const RunKnob& knob : result.knobs) {
       session_.knobs->make(knob);  // not made by a stored call

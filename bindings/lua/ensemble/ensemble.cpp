@@ -14,7 +14,6 @@
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -88,11 +87,6 @@ CaseValue read_value(EnsembleKeys& keys, std::string_view key, const Argument& v
   return read;
 }
 
-template <class T>
-bool by_key(const T& a, const T& b) {
-  return a.key < b.key;
-}
-
 void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table of lists, such as { seed = {1, 2, 3} }", problems);
@@ -108,23 +102,14 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
     if (list.is_unknown()) {
       values.push_back({name, pack(list.state(), list.index(), Cargo::data, path, ""), "?"});
     } else if (!list.is_table()) {
-      problems.push_back(quoted(path) + " is " + list.describe() + "; give a list of values, such as {" +
-                         value_text(list) + "}");
-      return;
+      return detail::wrong_type(list, path, "a list of values, such as {" + value_text(list) + "}", problems);
     }
-    const std::int64_t length = list.is_table() ? list.length() : 0;
-    std::int64_t entries = 0, others = 0;
-    if (list.is_table())
-      list.each([&](const Argument& place, const Argument&) {
-        const auto k = place.is_number() ? place.integer() : std::nullopt;
-        ++(k && *k >= 1 && *k <= length ? entries : others);
-      });
-    if (entries != length || others > 0) {
+    if (list.is_table() && !list.is_list()) {
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
       return;
     }
-    for (std::int64_t k = 1; k <= length; ++k)
-      list.element(k, [&](const Argument& item) {
+    if (list.is_table())
+      list.elements([&](const Argument& item, std::int64_t k) {
         values.push_back(read_value(keys, name, item, path + "[" + std::to_string(k) + "]"));
       });
     const std::string plain = values.empty() ? name : values.front().key;
@@ -132,7 +117,7 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
   });
   if (problems.empty() && keys.over->empty())
     problems.push_back(quoted(info.name) + " names nothing to vary; give at least one list");
-  std::sort(keys.over->begin(), keys.over->end(), by_key<EnsembleKeys::Varied>);
+  std::ranges::sort(*keys.over, {}, &EnsembleKeys::Varied::key);
   const auto twice = std::ranges::adjacent_find(*keys.over, {}, &EnsembleKeys::Varied::key);
   if (twice != keys.over->end())
     problems.push_back(quoted(info.name) + " names " + quoted(twice->key) + " twice; give one list");
@@ -144,10 +129,7 @@ void read_cases(const Argument& value, const OptionInfo& info, EnsembleKeys& key
   keys.cases.emplace();
   value.elements([&](const Argument& item, std::int64_t k) {
     const std::string path = info.name + "[" + std::to_string(k) + "]";
-    if (!item.is_table()) {
-      problems.push_back(quoted(path) + " is " + item.describe() + "; give a table of named values");
-      return;
-    }
+    if (!item.is_table()) return detail::wrong_type(item, path, "a table of named values", problems);
     EnsembleKeys::Values values;
     item.each([&](const Argument& key, const Argument& part) {
       if (key.is_text())
@@ -155,7 +137,7 @@ void read_cases(const Argument& value, const OptionInfo& info, EnsembleKeys& key
       else
         problems.push_back(quoted(path) + " holds a value without a key; write `name = value`");
     });
-    std::sort(values.begin(), values.end(), by_key<CaseValue>);
+    std::ranges::sort(values, {}, &CaseValue::key);
     keys.cases->push_back(std::move(values));
   });
 }
@@ -189,21 +171,6 @@ const Block<EnsembleKeys> ensemble_block{
             "ensemble_kept.csv; or the list rows.failed of {index, case, message}, and rows of the others")},
     check_keys};
 
-// A dry run calls `run` in the script's own state, and neither counts nor lists nested ensembles.
-struct NestedEnsembles {
-  explicit NestedEnsembles(Session& s)
-      : session(s), listed(std::exchange(s.on_ensemble, nullptr)), numbered(s.numbered_ensembles) {}
-  ~NestedEnsembles() {
-    session.on_ensemble = listed;
-    session.numbered_ensembles = numbered;
-  }
-  NestedEnsembles(const NestedEnsembles&) = delete;
-  NestedEnsembles& operator=(const NestedEnsembles&) = delete;
-  Session& session;
-  decltype(Session::on_ensemble) listed;
-  int numbered;
-};
-
 Map case_values(const std::vector<CaseValue>& values) {
   Map map;
   for (const CaseValue& value : values) map.items.emplace_back(value.key, value.value);
@@ -218,10 +185,8 @@ Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run)
   const Argument::StackGuard guard(L);
   lua_pushvalue(L, run.index());
   push_checked(L, case_values(first), "a case");
-  if (lua_pcall(L, 1, 1, 0) != LUA_OK) {
-    stop_flag().check();
-    throw Error(ErrorCode::bad_value, case_name(first) + ": " + error_text(L, -1));
-  }
+  if (const auto failure = failure_of_call(L, 1, 1))
+    throw Error(ErrorCode::bad_value, case_name(first) + ": " + *failure);
   const Argument returned(L, -1);
   std::vector<std::string> fields;
   bool known = true;
@@ -280,7 +245,6 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// To the run or the enclosing case.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results)
     for (const RunKnob& knob : result.knobs) {
@@ -311,7 +275,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
       else if (value.is_text())
         row.push_back({std::string(key.text()), std::string(value.text())});
     });
-    std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    std::ranges::sort(row, {}, &Entry::column);
     if (row.empty()) continue;
     book->write(row);
     any = true;
@@ -368,7 +332,9 @@ Values ensemble(Call& call) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
       if (session.on_ensemble)
         session.on_ensemble(place, keys.count(), [&](std::size_t k) { return case_name(keys.values(k)); });
-      const NestedEnsembles nested(session);
+      // `run` is called in this state, and nested ensembles are neither counted nor listed.
+      const Temporarily listed(session.on_ensemble, nullptr);
+      const Temporarily numbered(session.numbered_ensembles, session.numbered_ensembles);
       return dry_rows(call, keys, run);
     }
     const Stream seeds(session.seed, "ensemble");

@@ -219,12 +219,7 @@ std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup
   const Argument given(L, handler + 1), returned(L, -1);
   refuse_other_values(setup, returned, given);
   auto add_values = [](lua_State* s) {  // given, returned
-    lua_pushnil(s);
-    while (lua_next(s, 1) != 0) {
-      lua_pushvalue(s, -2);
-      lua_insert(s, -2);
-      lua_rawset(s, 2);
-    }
+    copy_entries(s, 1, 2);
     return 1;
   };
   lua_pushvalue(L, given.index());

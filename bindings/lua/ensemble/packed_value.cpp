@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string_view>
 
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"

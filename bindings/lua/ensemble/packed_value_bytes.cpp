@@ -68,6 +68,10 @@ struct PackedValue::Writer : ValueVisitor {
       : packed(written), name(called), given(at_hand) {}
 
   void tag(Tag value) { out.number(static_cast<std::uint8_t>(value)); }
+  void put(Tag kind, const auto& value) {
+    tag(kind);
+    write_fields(out, value);
+  }
   // "run(case).bench"
   std::string path_to(std::uint32_t to, int steps = 0) const {
     if (const auto* root = std::get_if<NodeId>(&packed.root_);
@@ -99,9 +103,7 @@ struct PackedValue::Writer : ValueVisitor {
   void leaf(const Object& object) {
     std::size_t place = 0;
     if (same_object(object, given, place) != nullptr) {
-      tag(Tag::given);
-      out.number(static_cast<std::uint64_t>(place));
-      return;
+      return put(Tag::given, static_cast<std::uint64_t>(place));
     }
     if (const std::string refused = no_bytes_for(object); !refused.empty()) refuse(refused);
     if (object.type == &class_of<Surface>()) {
@@ -119,8 +121,7 @@ struct PackedValue::Writer : ValueVisitor {
       out.numbers(profile.measured_heights());
       write_fields(out, profile.closed_radius());
     } else {
-      tag(Tag::material);
-      write_fields(out, *static_cast<const Material*>(object.pointer.get()));
+      put(Tag::material, *static_cast<const Material*>(object.pointer.get()));
     }
   }
   void begin(const Value&) {
@@ -146,22 +147,10 @@ struct PackedValue::Writer : ValueVisitor {
   }
   void enter(const Map&) { tag(Tag::map); }
   void leaf(std::monostate) { tag(Tag::nil); }
-  void leaf(bool truth) {
-    tag(Tag::truth);
-    out.number(truth);
-  }
-  void leaf(std::int64_t number) {
-    tag(Tag::integer);
-    out.number(number);
-  }
-  void leaf(double number) {
-    tag(Tag::number);
-    out.number(number);
-  }
-  void leaf(const std::string& text) {
-    tag(Tag::text);
-    out.text(text);
-  }
+  void leaf(bool truth) { put(Tag::truth, truth); }
+  void leaf(std::int64_t number) { put(Tag::integer, number); }
+  void leaf(double number) { put(Tag::number, number); }
+  void leaf(const std::string& text) { put(Tag::text, text); }
   void leaf(const Value::Numbers& numbers) {
     tag(Tag::numbers);
     out.numbers(*numbers);
@@ -178,8 +167,7 @@ struct PackedValue::Writer : ValueVisitor {
         [&](const auto& held) {
           using Held = std::decay_t<decltype(held)>;
           if constexpr (std::is_same_v<Held, NodeId>) {
-            tag(Tag::node);
-            out.number(held.index);
+            put(Tag::node, held.index);
           } else if constexpr (std::is_same_v<Held, std::monostate> || std::is_same_v<Held, bool> ||
                                std::is_same_v<Held, std::int64_t> || std::is_same_v<Held, double> ||
                                std::is_same_v<Held, std::string>) {
@@ -285,49 +273,27 @@ struct PackedValue::Reader {
   Value value(Tag kind) {
     if (++depth > deepest_packed) ByteReader::damaged();
     Value result = [&]() -> Value {
-      switch (kind) {
-        case Tag::nil:
-          return {};
-        case Tag::truth:
-          return in.truth();
-        case Tag::integer:
-          return in.number<std::int64_t>();
-        case Tag::number:
-          return in.number<double>();
-        case Tag::text:
-          return in.text();
-        case Tag::given: {
-          const auto place = in.number<std::uint64_t>();
-          if (place >= given.size()) ByteReader::damaged();
-          return given[static_cast<std::size_t>(place)];
-        }
-        case Tag::surface:
-          return surface();
-        case Tag::profile:
-          return profile();
-        case Tag::material:
-          return object(fields<Material>());
-        case Tag::record:
-          return record();
-        case Tag::list: {
-          List list;
-          for (std::size_t left = in.count(); left > 0; --left) list.items.push_back(value());
-          list.named = named();
-          return list;
-        }
-        case Tag::map: {
-          Map map;
-          map.items = named();
-          return map;
-        }
-        case Tag::numbers:
-          return std::make_shared<const Array<double>>(numbers());
-        case Tag::rows:
-          return std::make_shared<const Field>(field());
-        case Tag::node:
-          break;
+      if (kind == Tag::nil) return {};
+      if (kind == Tag::truth) return in.truth();
+      if (kind == Tag::integer) return in.number<std::int64_t>();
+      if (kind == Tag::number) return in.number<double>();
+      if (kind == Tag::text) return in.text();
+      if (kind == Tag::surface) return surface();
+      if (kind == Tag::profile) return profile();
+      if (kind == Tag::material) return object(fields<Material>());
+      if (kind == Tag::record) return record();
+      if (kind == Tag::numbers) return std::make_shared<const Array<double>>(numbers());
+      if (kind == Tag::rows) return std::make_shared<const Field>(field());
+      if (kind == Tag::map) return Map{named()};
+      if (kind == Tag::list) {
+        List list;
+        for (std::size_t left = in.count(); left > 0; --left) list.items.push_back(value());
+        list.named = named();
+        return list;
       }
-      ByteReader::damaged();
+      const auto place = kind == Tag::given ? in.number<std::uint64_t>() : given.size();
+      if (place >= given.size()) ByteReader::damaged();
+      return given[static_cast<std::size_t>(place)];
     }();
     --depth;
     return result;

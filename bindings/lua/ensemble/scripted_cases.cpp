@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
-#include <utility>
 
 #include "bindings/lua/ensemble/case_roster.hpp"
 #include "engine/core/program_identity.hpp"
@@ -112,7 +110,7 @@ class SharedEnsemble {
     if (shared_.shard) {
       std::size_t own = 0;
       for (std::size_t k = 0; k < count; ++k) own += shared_.shard->own(k) ? 1 : 0;
-      const std::string its = own == 1 ? "its 1 case" : "its " + std::to_string(own) + " cases";
+      const std::string its = "its " + counted(own, "case");
       const std::string of = " of the ensemble " + place_;
       const std::string are = own == 1 ? " is" : " are";
       shared_.end(

@@ -17,7 +17,6 @@
 
 namespace asperity::lua {
 
-// A function for every case of a study, on threads.
 Function ensemble_function();
 
 // Without values and seed.

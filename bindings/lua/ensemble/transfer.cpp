@@ -2,7 +2,6 @@
 #include "bindings/lua/ensemble/transfer.hpp"
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -94,27 +93,18 @@ class Packer {
     if (lua_checkstack(L, 16) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     const Argument value(L, -1);
     PackedValue::Item item;
-    switch (lua_type(L, -1)) {
-      case LUA_TNIL:
-        break;
-      case LUA_TBOOLEAN:
-        item = value.boolean();
-        break;
-      case LUA_TNUMBER:
-        if (lua_isinteger(L, -1) != 0)
-          item = static_cast<std::int64_t>(lua_tointeger(L, -1));
-        else
-          item = value.number();
-        break;
-      case LUA_TSTRING:
-        item = std::string(value.text());
-        break;
-      case LUA_TLIGHTUSERDATA:
-        item = lua_touserdata(L, -1);
-        break;
-      default:
-        return take_object(value);
-    }
+    if (value.is_boolean())
+      item = value.boolean();
+    else if (lua_isinteger(L, -1) != 0)
+      item = static_cast<std::int64_t>(lua_tointeger(L, -1));
+    else if (value.is_number())
+      item = value.number();
+    else if (value.is_text())
+      item = std::string(value.text());
+    else if (lua_islightuserdata(L, -1))
+      item = lua_touserdata(L, -1);
+    else if (!value.is_nil())
+      return take_object(value);
     lua_pop(L, 1);
     return item;
   }
@@ -127,24 +117,19 @@ class Packer {
       if (cargo_ == Cargo::data) refuse("a part of Lua's library");
       return popped(base(*path));
     }
-    switch (lua_type(L, -1)) {
-      case LUA_TTABLE:
-        if (const Module* module = module_at(L, -1)) {
-          if (cargo_ == Cargo::data) refuse("a part of the laboratory");
-          return popped(module);
-        }
-        return open(identity, PackedValue::Table{static_cast<std::uint32_t>(std::min<lua_Unsigned>(
-                                                     lua_rawlen(L, -1), lua_Unsigned{1} << 26)),
-                                                 {},
-                                                 {}});
-      case LUA_TFUNCTION:
-        if (cargo_ == Cargo::data) refuse("a function");
-        return lua_iscfunction(L, -1) != 0 ? take_host_function(identity) : take_function(identity);
-      case LUA_TUSERDATA:
-        return take_userdata(identity, value);
-      default:
-        refuse(value.describe());
+    if (value.is_table()) {
+      const Module* module = module_at(L, -1);
+      if (module != nullptr && cargo_ == Cargo::data) refuse("a part of the laboratory");
+      if (module != nullptr) return popped(module);
+      const auto length = std::min<lua_Unsigned>(lua_rawlen(L, -1), lua_Unsigned{1} << 26);
+      return open(identity, PackedValue::Table{static_cast<std::uint32_t>(length), {}, {}});
     }
+    if (value.is_function()) {
+      if (cargo_ == Cargo::data) refuse("a function");
+      return lua_iscfunction(L, -1) != 0 ? take_host_function(identity) : take_function(identity);
+    }
+    if (lua_type(L, -1) == LUA_TUSERDATA) return take_userdata(identity, value);
+    refuse(value.describe());
   }
 
   PackedValue::Item take_function(const void* identity) {

@@ -82,8 +82,7 @@ Function friction_function() {
           .example = "local law = lab.friction{ tau0=\"500 MPa\", alpha=0.2 }"};
 }
 
-template <>
-Class make_class<JunctionLaw>() {
+Class make_class(For<JunctionLaw>) {
   Class c{"Law", "a law", "A friction law of junctions."};
   c.describe = text_of<&JunctionLaw::text>;
   c.fields = {

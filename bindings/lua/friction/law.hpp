@@ -8,8 +8,7 @@
 
 namespace asperity::lua {
 
-template <>
-Class make_class<JunctionLaw>();
+Class make_class(For<JunctionLaw>);
 
 Function friction_function();
 

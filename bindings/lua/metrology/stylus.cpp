@@ -4,7 +4,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/metrology/stylus.hpp"
 
 namespace asperity::lua {
 
@@ -60,12 +59,6 @@ Values scan(Call& call) {
   return {std::move(traces)};
 }
 
-std::string describe_stylus(const Stylus& s) {
-  return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +
-         std::to_string(s.samples()) + " samples every " + format_quantity(s.spacing(), dimension::length) +
-         (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
-}
-
 }  // namespace
 
 Function stylus_function() {
@@ -79,10 +72,13 @@ Function stylus_function() {
           .example = "local stylus = lab.stylus{ tip=\"2 um\", speed=\"50 um/s\", rate=\"200 Hz\" }"};
 }
 
-template <>
-Class make_class<Stylus>() {
+Class make_class(For<Stylus>) {
   Class c{"Stylus", "a stylus", "A stylus profiler; an immutable value."};
-  c.describe = text_of<describe_stylus>;
+  c.describe = from_value([](const Stylus& s) -> std::string {
+    return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +
+           std::to_string(s.samples()) + " samples every " + format_quantity(s.spacing(), dimension::length) +
+           (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
+  });
   c.equal = have_one_digest<Stylus>;
   c.digest = text_of<&Stylus::digest>;
   c.fields = {

@@ -7,8 +7,7 @@
 
 namespace asperity::lua {
 
-template <>
-Class make_class<Stylus>();
+Class make_class(For<Stylus>);
 
 Function stylus_function();
 

@@ -65,33 +65,25 @@ Object* Argument::as_object(const Class& type) const {
   return object != nullptr && object->type == &type ? object : nullptr;
 }
 
+bool Argument::is_list() const {
+  std::int64_t entries = 0, others = 0;
+  each([&](const Argument& key, const Argument&) {
+    const auto k = key.is_number() ? key.integer() : std::nullopt;
+    ++(k && *k >= 1 && *k <= length() ? entries : others);
+  });
+  return others == 0 && entries == length();
+}
+
 std::string Argument::describe() const {
-  switch (lua_type(L, index_)) {
-    case LUA_TNONE:
-    case LUA_TNIL:
-      return "nothing (nil)";
-    case LUA_TBOOLEAN:
-      return boolean() ? "the boolean true" : "the boolean false";
-    case LUA_TNUMBER:
-      return "the number " + format_short(number(), 10);
-    case LUA_TSTRING: {
-      std::string shown(text().substr(0, 40));
-      if (text().size() > 40) shown += "…";
-      return "the string \"" + shown + "\"";
-    }
-    case LUA_TTABLE: {
-      std::int64_t values = 0;
-      each([&](const Argument&, const Argument&) { ++values; });
-      if (values == 0) return "an empty table";
-      return values == length() ? "a list of " + std::to_string(values) : "a table";
-    }
-    case LUA_TFUNCTION:
-      return "a function";
-    case LUA_TTHREAD:
-      return "a coroutine";
-    default:
-      break;
-  }
+  if (is_nil()) return "nothing (nil)";
+  if (is_boolean()) return boolean() ? "the boolean true" : "the boolean false";
+  if (is_number()) return "the number " + format_short(number(), 10);
+  if (is_text())
+    return "the string \"" + std::string(text().substr(0, 40)) + (text().size() > 40 ? "…\"" : "\"");
+  if (is_table() && !is_list()) return "a table";
+  if (is_table()) return length() == 0 ? "an empty table" : "a list of " + std::to_string(length());
+  if (is_function()) return "a function";
+  if (lua_isthread(L, index_)) return "a coroutine";
   if (const Object* object = as_any_object()) return object->type->article_name;
   const std::shared_ptr<Record> record = record_at(L, index_);
   return record != nullptr ? "a result (" + record->name + ")" : "a userdata";
@@ -99,32 +91,33 @@ std::string Argument::describe() const {
 
 double Callback::operator()(std::initializer_list<double> arguments, std::string_view key) const {
   const Argument::StackGuard guard(function_.state());
-  lua_pushvalue(function_.state(), function_.index());
-  for (const double argument : arguments) lua_pushnumber(function_.state(), argument);
-  return finish(static_cast<int>(arguments.size()), key);
+  return number_of(called(arguments, key), key);
 }
 
 double Callback::operator()(std::initializer_list<std::int64_t> arguments, std::string_view key) const {
   const Argument::StackGuard guard(function_.state());
-  lua_pushvalue(function_.state(), function_.index());
-  for (const std::int64_t argument : arguments) lua_pushinteger(function_.state(), argument);
-  return finish(static_cast<int>(arguments.size()), key);
+  return number_of(called(arguments, key), key);
 }
 
 bool Callback::answer(std::initializer_list<double> arguments, std::string_view key) const {
   const Argument::StackGuard guard(function_.state());
-  lua_pushvalue(function_.state(), function_.index());
-  for (const double argument : arguments) lua_pushnumber(function_.state(), argument);
-  const Argument result = called(static_cast<int>(arguments.size()), key);
+  const Argument result = called(arguments, key);
   if (!result.is_boolean())
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
                 "it must return true or false");
   return result.boolean();
 }
 
-Argument Callback::called(int arguments, std::string_view key) const {
+template <class Number>
+Argument Callback::called(std::initializer_list<Number> arguments, std::string_view key) const {
   lua_State* L = function_.state();
-  if (lua_pcall(L, arguments, 1, 0) != LUA_OK) {
+  lua_pushvalue(L, function_.index());
+  for (const Number argument : arguments)
+    if constexpr (std::integral<Number>)
+      lua_pushinteger(L, argument);
+    else
+      lua_pushnumber(L, argument);
+  if (lua_pcall(L, static_cast<int>(arguments.size()), 1, 0) != LUA_OK) {
     stop_flag().check();
     const Argument error(L, -1);
     std::vector<std::string> fields;
@@ -142,8 +135,7 @@ Argument Callback::called(int arguments, std::string_view key) const {
   return Argument(L, -1);
 }
 
-double Callback::finish(int arguments, std::string_view key) const {
-  const Argument result = called(arguments, key);
+double Callback::number_of(const Argument& result, std::string_view key) {
   if (!result.is_number())
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
                 "it must return a number");

@@ -56,6 +56,7 @@ class Argument {
   std::string describe() const;
 
   std::int64_t length() const { return static_cast<std::int64_t>(lua_rawlen(L, index_)); }
+  bool is_list() const;  // of a table: no keys but 1 to length()
   // Nil if absent.
   template <class Visit>
   auto element(std::int64_t k, Visit&& visit) const {
@@ -129,8 +130,9 @@ class Callback {
   bool answer(std::initializer_list<double> arguments, std::string_view key) const;
 
  private:
-  Argument called(int arguments, std::string_view key) const;
-  double finish(int arguments, std::string_view key) const;
+  template <class Number>
+  Argument called(std::initializer_list<Number> arguments, std::string_view key) const;
+  static double number_of(const Argument& result, std::string_view key);
   Argument function_;
 };
 

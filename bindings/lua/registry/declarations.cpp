@@ -77,6 +77,17 @@ const std::unordered_map<const Function*, NamedFunction>& entries() {
   return all;
 }
 
+// Few short items, else their number.
+template <class Items>
+std::string content_of(const Items& items) {
+  constexpr std::size_t most = 10, longest = 100;
+  std::string text;
+  for (const auto& item : items)
+    if (text.size() <= longest) text += (text.empty() ? "" : ", ") + show(Value(item));
+  return items.size() > most || text.size() > longest ? "a table of " + std::to_string(items.size())
+                                                      : "{ " + text + " }";
+}
+
 }  // namespace
 
 const NamedFunction& entry_of(const Function& function) { return entries().at(&function); }
@@ -147,21 +158,6 @@ std::string show(const Record::Entry& entry) {
   return number && entry.dimension != dimension::number ? format_quantity(*number, entry.dimension)
                                                         : show(entry.value);
 }
-
-namespace {
-
-// Few short items, else their number.
-template <class Items>
-std::string content_of(const Items& items) {
-  constexpr std::size_t most = 10, longest = 100;
-  std::string text;
-  for (const auto& item : items)
-    if (text.size() <= longest) text += (text.empty() ? "" : ", ") + show(Value(item));
-  return items.size() > most || text.size() > longest ? "a table of " + std::to_string(items.size())
-                                                      : "{ " + text + " }";
-}
-
-}  // namespace
 
 std::string show(const Value& value) {
   struct Shower {

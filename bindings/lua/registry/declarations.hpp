@@ -135,10 +135,8 @@ void append(std::vector<T>& list, const More&... more) {
 }
 
 template <class T>
-Class make_class();
-template <class T>
 const Class& class_of() {
-  static const Class type = make_class<T>();
+  static const Class type = make_class(For<T>{});
   return type;
 }
 

@@ -2,7 +2,6 @@
 #include "bindings/lua/registry/embedded.hpp"
 
 #include <map>
-#include <memory>
 #include <mutex>
 #include <new>
 #include <string>
@@ -12,22 +11,11 @@ namespace asperity::lua {
 
 namespace {
 
-// Compiled texts with line numbers and names; compilation dominated the creation of states.
-class CompiledTexts {
- public:
-  std::shared_ptr<const std::string> find(const void* text) {
-    const std::lock_guard lock(mutex_);
-    const auto at = codes_.find(text);
-    return at == codes_.end() ? nullptr : at->second;
-  }
-  void add(const void* text, std::string code) {
-    const std::lock_guard lock(mutex_);
-    codes_.emplace(text, std::make_shared<const std::string>(std::move(code)));
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<const void*, std::shared_ptr<const std::string>> codes_;
+// Compiled texts with line numbers and names; compilation dominated the creation of states. They stay as long
+// as the program.
+struct CompiledTexts {
+  std::mutex mutex;
+  std::map<const void*, std::string> codes;
 };
 
 CompiledTexts& compiled_texts() {
@@ -35,16 +23,21 @@ CompiledTexts& compiled_texts() {
   return texts;
 }
 
-// -1 if not cached. Lua may raise: no pending destructor.
-int load_compiled(lua_State* L, std::string_view text, const char* chunk) {
-  const std::shared_ptr<const std::string> code = compiled_texts().find(text.data());
-  return code == nullptr ? -1 : luaL_loadbufferx(L, code->data(), code->size(), chunk, "b");
+// Null if not cached.
+const std::string* compiled(std::string_view text) {
+  CompiledTexts& all = compiled_texts();
+  const std::lock_guard lock(all.mutex);
+  const auto at = all.codes.find(text.data());
+  return at == all.codes.end() ? nullptr : &at->second;
 }
 
 void keep_compiled(lua_State* L, std::string_view text) {
   try {
     std::string code;
-    if (lua_dump(L, append_code, &code, 0) == 0) compiled_texts().add(text.data(), std::move(code));
+    if (lua_dump(L, append_code, &code, 0) != 0) return;
+    CompiledTexts& all = compiled_texts();
+    const std::lock_guard lock(all.mutex);
+    all.codes.emplace(text.data(), std::move(code));
   } catch (const std::bad_alloc&) {
   }
 }
@@ -71,12 +64,11 @@ int append_code(lua_State*, const void* bytes, std::size_t size, void* code) {
 }
 
 void load_embedded_text(lua_State* L, std::string_view text, const char* chunk) {
-  int status = load_compiled(L, text, chunk);
-  if (status < 0) {
-    status = luaL_loadbufferx(L, text.data(), text.size(), chunk, "t");
-    if (status == LUA_OK) keep_compiled(L, text);
-  }
+  const std::string* code = compiled(text);
+  const std::string_view loaded = code != nullptr ? std::string_view(*code) : text;
+  const int status = luaL_loadbufferx(L, loaded.data(), loaded.size(), chunk, code != nullptr ? "b" : "t");
   if (status != LUA_OK) lua_error(L);
+  if (code == nullptr) keep_compiled(L, text);
 }
 
 std::string_view embedded_script(std::string_view name) {

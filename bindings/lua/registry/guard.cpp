@@ -2,7 +2,6 @@
 #include "bindings/lua/registry/guard.hpp"
 
 #include <algorithm>
-#include <new>
 #include <string_view>
 
 #include "bindings/lua/registry/argument.hpp"

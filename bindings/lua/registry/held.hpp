@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A function with its captures. std::function would instantiate ten functions for each of a thousand
-// options.
+// A function with its captures. std::function would instantiate ten functions for each of thousands of
+// options and fields.
 #pragma once
 
 #include <concepts>

@@ -30,4 +30,15 @@ int protect(lua_State* L, int arguments, int results, Action& action) {
   return lua_pcall(L, arguments + 1, results, 0);
 }
 
+// Copies the entries of the table at an index into that at another; both count from the bottom. Raises on
+// lack of memory.
+inline void copy_entries(lua_State* L, int from, int to) {
+  lua_pushnil(L);
+  while (lua_next(L, from) != 0) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, to);
+  }
+}
+
 }  // namespace asperity::lua

@@ -21,11 +21,14 @@ int raised(lua_State* L, const std::string& name, const Body& body) {
   return results < 0 ? lua_error(L) : results;
 }
 
+[[noreturn]] void refuse_closed(const Class& type) {
+  throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+}
+
 // t[k]. A dry run does not know how many rows a table has; a loop over them runs once.
 Value item_of(const Object& self, std::int64_t k) {
   if (self.is_placeholder()) return k >= 1 ? Value(Unknown{}) : Value();
-  if (self.closed)
-    throw Error(ErrorCode::bad_state, self.type->article_name + " was used after it was closed");
+  if (self.closed) refuse_closed(*self.type);
   return self.type->item(self.pointer.get(), k);
 }
 
@@ -55,7 +58,7 @@ int guarded_field(lua_State* L, const Class& type) {
     if (!key.is_text())
       throw Error(ErrorCode::unknown_name, type.article_name + " was indexed with " + key.describe(),
                   "its fields have names");
-    if (self->closed) throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+    if (self->closed) refuse_closed(type);
     for (const Getter& field : type.fields) {
       if (field.name != key.text()) continue;
       if (self->is_placeholder()) return {placeholder_of(field.type)};
@@ -72,27 +75,18 @@ int guarded_field(lua_State* L, const Class& type) {
   });
 }
 
-const Function* method_of(const Class& type, std::string_view name) {
-  for (const Function& method : type.methods)
-    if (method.name == name) return &method;
-  return nullptr;
-}
-
 // Closures are made on first use: scripts use few methods.
 int outer_index(lua_State* L) {
   lua_pushvalue(L, 2);
   if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
   lua_pop(L, 1);
   const Class& type = class_at(L);
-  if (lua_type(L, 2) == LUA_TSTRING) {
-    std::size_t length = 0;
-    const char* name = lua_tolstring(L, 2, &length);
-    if (const Function* method = method_of(type, {name, length})) {
-      push_function(L, *method);
-      lua_pushvalue(L, -1);
-      lua_setfield(L, lua_upvalueindex(2), name);
-      return 1;
-    }
+  if (const auto method = std::ranges::find(type.methods, Argument(L, 2).text(), &Function::name);
+      method != type.methods.end()) {
+    push_function(L, *method);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, lua_upvalueindex(2), method->name.c_str());
+    return 1;
   }
   const int results = guarded_field(L, type);
   return results < 0 ? mistaken_field(L) : results;
@@ -139,8 +133,7 @@ int outer_length(lua_State* L) {
   return raised(L, type.name, [&]() -> Values {
     const Object* self = Argument(L, 1).as_object(type);
     if (self != nullptr && self->is_placeholder()) return {Unknown{}};
-    if (self == nullptr || self->closed)
-      throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+    if (self == nullptr || self->closed) refuse_closed(type);
     return {type.length(self->pointer.get())};
   });
 }
@@ -157,15 +150,11 @@ int guarded_operator(lua_State* L, const Operator& operation) {
   });
 }
 
-int operator_after_failure(lua_State* L, const Operator& operation) {
-  if (!noted_as_mistake(L)) return -1;
-  return guarded(L, operation.form, [&]() -> Values { return {placeholder_of(operation.returns)}; });
-}
-
 int outer_operator(lua_State* L) {
   const Operator& operation = *static_cast<const Operator*>(lua_touserdata(L, lua_upvalueindex(1)));
   int results = guarded_operator(L, operation);
-  if (results < 0) results = operator_after_failure(L, operation);
+  if (results < 0 && noted_as_mistake(L))
+    results = guarded(L, operation.form, [&]() -> Values { return {placeholder_of(operation.returns)}; });
   return results < 0 ? lua_error(L) : results;
 }
 

@@ -2,9 +2,7 @@
 #include "bindings/lua/registry/options.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -29,8 +27,21 @@ std::string meant_by(std::string_view name, std::span<const std::string> names) 
 
 namespace detail {
 
-void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems) {
-  problems.push_back(quoted(info.name) + " is " + value.describe() + "; give " + std::string(wanted));
+void wrong_type(const Argument& value, std::string_view name, std::string_view wanted, Problems& problems) {
+  problems.push_back(quoted(name) + " is " + value.describe() + "; give " + std::string(wanted));
+}
+
+std::optional<Quantity> read_any_quantity(const Argument& value, const std::string& name,
+                                          std::string_view wanted, Problems& problems) {
+  if (value.is_unknown()) return {};
+  if (value.is_number()) return Quantity{value.number(), dimension::number};
+  std::optional<Quantity> quantity;
+  if (value.is_text())
+    collect(
+        problems, [&] { quantity = parse_quantity(value.text()); }, name);
+  else
+    wrong_type(value, name, wanted, problems);
+  return quantity;
 }
 
 namespace {
@@ -68,6 +79,51 @@ void warn_of_bare_number(const Argument& value, const OptionInfo& info, double n
                           ": a number without a unit is in " + unit + "; write \"" + text + " " + wanted +
                           "\"" + (reason.empty() ? ", or \"" + text + " " + unit + "\"" : ""));
 }
+
+// Marks the table's options as seen; returns the other keys.
+Problems unknown_keys(const Argument& table, const std::vector<const OptionInfo*>& options,
+                      std::vector<bool>& seen) {
+  Problems unknown;
+  if (!table.is_table()) return unknown;
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const OptionInfo* option : options) all.push_back(option->name);
+    return all;
+  };
+  table.each([&](const Argument& key, const Argument&) {
+    if (!key.is_text()) {
+      unknown.push_back(key.is_number() ? "position " + format_short(key.number()) +
+                                              " holds a value without a key; write `key = value`"
+                                        : "a key is " + key.describe() + "; keys are names");
+      return;
+    }
+    const auto found = std::ranges::find(options, key.text(), &OptionInfo::name);
+    if (found == options.end())
+      unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names()));
+    else
+      seen[static_cast<std::size_t>(found - options.begin())] = true;
+  });
+  std::sort(unknown.begin(), unknown.end());
+  constexpr std::size_t enough = 12;
+  if (unknown.size() > enough) {
+    const std::size_t more = unknown.size() - enough;
+    unknown.resize(enough);
+    unknown.push_back("and " + std::to_string(more) + " more unknown keys");
+  }
+  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names(), " and "));
+  return unknown;
+}
+
+[[noreturn]] void throw_problems(const std::string& caller, const Problems& problems, bool unknown) {
+  const std::size_t count = problems.size() - (unknown ? 1 : 0);
+  if (count == 1)
+    throw Error(unknown ? ErrorCode::unknown_name : ErrorCode::bad_value, caller + ": " + problems.front(),
+                unknown ? problems.back() : "");
+  std::string sentence = caller + ": " + std::to_string(count) + " problems";
+  for (const std::string& problem : problems) sentence += "\n  " + problem;
+  throw Error(ErrorCode::bad_value, sentence);
+}
+
 }  // namespace
 
 std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
@@ -177,52 +233,6 @@ std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& 
   return {};
 }
 
-namespace {
-// Marks the table's options as seen; returns the other keys.
-Problems unknown_keys(const Argument& table, const std::vector<const OptionInfo*>& options,
-                      std::vector<bool>& seen) {
-  Problems unknown;
-  if (!table.is_table()) return unknown;
-  const auto names = [&] {
-    std::vector<std::string> all;
-    for (const OptionInfo* option : options) all.push_back(option->name);
-    return all;
-  };
-  table.each([&](const Argument& key, const Argument&) {
-    if (!key.is_text()) {
-      unknown.push_back(key.is_number() ? "position " + format_short(key.number()) +
-                                              " holds a value without a key; write `key = value`"
-                                        : "a key is " + key.describe() + "; keys are names");
-      return;
-    }
-    const auto found = std::ranges::find(options, key.text(), &OptionInfo::name);
-    if (found == options.end())
-      unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names()));
-    else
-      seen[static_cast<std::size_t>(found - options.begin())] = true;
-  });
-  std::sort(unknown.begin(), unknown.end());
-  constexpr std::size_t enough = 12;
-  if (unknown.size() > enough) {
-    const std::size_t more = unknown.size() - enough;
-    unknown.resize(enough);
-    unknown.push_back("and " + std::to_string(more) + " more unknown keys");
-  }
-  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names(), " and "));
-  return unknown;
-}
-
-[[noreturn]] void throw_problems(const std::string& caller, const Problems& problems, bool unknown) {
-  const std::size_t count = problems.size() - (unknown ? 1 : 0);
-  if (count == 1)
-    throw Error(unknown ? ErrorCode::unknown_name : ErrorCode::bad_value, caller + ": " + problems.front(),
-                unknown ? problems.back() : "");
-  std::string sentence = caller + ": " + std::to_string(count) + " problems";
-  for (const std::string& problem : problems) sentence += "\n  " + problem;
-  throw Error(ErrorCode::bad_value, sentence);
-}
-}  // namespace
-
 void read_table(const Argument& table, const std::string& caller,
                 const std::vector<const OptionInfo*>& options,
                 const std::function<void(std::size_t, const Argument&, Problems&)>& read,
@@ -300,12 +310,6 @@ void read_row(const OptionRow& row, const OptionInfo& info, const Argument& valu
 RowBlock::RowBlock(std::span<const OptionRow> rows, std::any defaults)
     : rows_(rows), defaults_(std::move(defaults)) {
   for (const OptionRow& row : rows_) infos_.push_back(row_info(row, defaults_));
-}
-
-std::vector<const OptionInfo*> RowBlock::options() const {
-  std::vector<const OptionInfo*> infos;
-  for (const OptionInfo& info : infos_) infos.push_back(&info);
-  return infos;
 }
 
 std::any RowBlock::read(const Argument& table, const std::string& caller) const {

@@ -51,6 +51,12 @@ class BlockInfo {
   virtual void check(const Argument& table, const std::string& caller) const = 0;
 };
 
+inline std::vector<const OptionInfo*> pointers_to(const std::vector<OptionInfo>& infos) {
+  std::vector<const OptionInfo*> pointers;
+  for (const OptionInfo& info : infos) pointers.push_back(&info);
+  return pointers;
+}
+
 using Resolved = std::vector<std::pair<std::string, std::string>>;
 
 using Problems = std::vector<std::string>;
@@ -67,7 +73,23 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
 // Scaled during an accuracy study (variation.hpp).
 std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
                                        const NumberRange& range, Problems& problems);
-void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
+void wrong_type(const Argument& value, std::string_view name, std::string_view wanted, Problems& problems);
+inline void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted,
+                       Problems& problems) {
+  wrong_type(value, info.name, wanted, problems);
+}
+// A number, or a quantity of any kind.
+std::optional<Quantity> read_any_quantity(const Argument& value, const std::string& name,
+                                          std::string_view wanted, Problems& problems);
+// An error of `act` becomes a problem, which begins with the key if one is given.
+template <class Act>
+void collect(Problems& problems, Act act, const std::string& key = "") {
+  try {
+    act();
+  } catch (const Error& error) {
+    problems.push_back((key.empty() ? "" : quoted(key) + ": ") + error.what());
+  }
+}
 // Returns the index of the word.
 std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
                                      const std::vector<std::string>& words, Problems& problems);
@@ -190,27 +212,38 @@ class Block final : public BlockInfo {
   Check check_;
 };
 
+// `read` appends problems that begin with quoted(info.name).
+template <class O, class Read>
+Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
+  Option<O> option;
+  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
+  option.read = std::move(read);
+  return option;
+}
+
+// `read` takes the member in place of the struct.
+template <class O, class M, class Read>
+Option<O> custom(std::string name, std::string type, std::string sentence, M O::*member, Read read) {
+  return custom<O>(std::move(name), std::move(type), std::move(sentence),
+                   [member, read](const Argument& value, const OptionInfo& info, O& options,
+                                  Problems& problems) { read(value, info, options.*member, problems); });
+}
+
 // A plain number for dimension::number. Member: double or optional<double>.
 template <class O, class M>
 Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRange range,
                    std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name),
-                 dimension == dimension::number ? "number" : describe(dimension),
-                 dimension,
-                 "",
-                 range.text(dimension),
-                 std::move(sentence),
-                 false};
-  option.read = [member, range](const Argument& value, const OptionInfo& info, O& options,
-                                Problems& problems) {
-    if (auto number = detail::read_quantity(value, info, range, problems))
-      detail::assign(options.*member, *number);
-  };
+  auto option = custom<O>(
+      std::move(name), dimension == dimension::number ? "number" : describe(dimension), std::move(sentence),
+      [member, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (auto number = detail::read_quantity(value, info, range, problems))
+          detail::assign(options.*member, *number);
+      });
+  option.info.dimension = dimension;
+  option.info.range_text = range.text(dimension);
   option.show = [member, dimension](const O& options) -> std::string {
     const auto value = detail::shown(options.*member);
-    if (!value) return "";
-    return detail::number_text(*value, dimension);
+    return value ? detail::number_text(*value, dimension) : "";
   };
   return option;
 }
@@ -222,13 +255,13 @@ Option<O> number(std::string name, M O::*member, NumberRange range, std::string 
 
 template <class O, class M>
 Option<O> integer(std::string name, M O::*member, NumberRange range, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "integer", {}, "", range.text({}), std::move(sentence), false};
-  option.read = [member, range](const Argument& value, const OptionInfo& info, O& options,
-                                Problems& problems) {
-    if (auto number = detail::read_integer(value, info, range, problems))
-      detail::assign(options.*member, *number);
-  };
+  auto option = custom<O>(
+      std::move(name), "integer", std::move(sentence),
+      [member, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (auto number = detail::read_integer(value, info, range, problems))
+          detail::assign(options.*member, *number);
+      });
+  option.info.range_text = range.text({});
   option.show = [member](const O& options) -> std::string {
     const auto value = detail::shown(options.*member);
     return value ? format_exact(*value) : "";
@@ -239,14 +272,14 @@ Option<O> integer(std::string name, M O::*member, NumberRange range, std::string
 // Member: bool, or optional<bool>, which stays unrecorded.
 template <class O, class M>
 Option<O> flag(std::string name, M O::*member, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "boolean", {}, "", "", std::move(sentence), false};
-  option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-    if (value.is_boolean())
-      options.*member = value.boolean();
-    else
-      detail::wrong_type(value, info, "true or false", problems);
-  };
+  auto option =
+      custom<O>(std::move(name), "boolean", std::move(sentence),
+                [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                  if (value.is_boolean())
+                    options.*member = value.boolean();
+                  else
+                    detail::wrong_type(value, info, "true or false", problems);
+                });
   if constexpr (std::same_as<M, bool>)
     option.show = [member](const O& options) { return std::string(options.*member ? "true" : "false"); };
   return option;
@@ -255,33 +288,30 @@ Option<O> flag(std::string name, M O::*member, std::string sentence) {
 // Member: std::string or optional<std::string>.
 template <class O, class M>
 Option<O> text(std::string name, M O::*member, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "string", {}, "", "", std::move(sentence), false};
-  option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-    if (value.is_text())
-      options.*member = std::string(value.text());
-    else
-      detail::wrong_type(value, info, "a string", problems);
-  };
-  return option;
+  return custom<O>(std::move(name), "string", std::move(sentence),
+                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                     if (value.is_text())
+                       options.*member = std::string(value.text());
+                     else
+                       detail::wrong_type(value, info, "a string", problems);
+                   });
 }
 
 template <class O, class M>
 Option<O> choice(std::string name, M O::*member,
                  std::vector<std::pair<std::string, std::type_identity_t<M>>> words, std::string sentence) {
-  Option<O> option;
   std::string type;
   std::vector<std::string> names;
   for (const auto& [word, value] : words) {
     type += (type.empty() ? "" : "|") + ("\"" + word + "\"");
     names.push_back(word);
   }
-  option.info = {std::move(name), type, {}, "", "", std::move(sentence), false};
-  option.read = [member, words, names](const Argument& value, const OptionInfo& info, O& options,
-                                       Problems& problems) {
-    if (const auto place = detail::read_word(value, info, names, problems))
-      options.*member = words[*place].second;
-  };
+  auto option = custom<O>(
+      std::move(name), type, std::move(sentence),
+      [member, words, names](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (const auto place = detail::read_word(value, info, names, problems))
+          options.*member = words[*place].second;
+      });
   option.show = [member, words](const O& options) -> std::string {
     for (const auto& [word, value] : words)
       if (value == options.*member) return "\"" + word + "\"";
@@ -301,43 +331,24 @@ std::string digest_text(const T& value) {
     return "";
 }
 
-// Member: T, std::optional<T> or std::shared_ptr<const T>.
+// Member: std::optional<T> or std::shared_ptr<const T>.
 template <class T, class O, class M>
 Option<O> native(std::string name, M O::*member, std::string type, std::string wanted, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
-  option.read = [member, wanted](const Argument& value, const OptionInfo& info, O& options,
-                                 Problems& problems) {
-    Object* object = value.as_object(class_of<T>());
-    if (object == nullptr) return detail::wrong_type(value, info, wanted, problems);
-    if (object->closed) {
-      problems.push_back(quoted(info.name) + " was closed");
-      return;
-    }
-    if (object->pointer == nullptr) return;  // of a dry run
-    if constexpr (requires(const M& m) { m.get(); })
-      options.*member = std::static_pointer_cast<T>(object->pointer);
-    else
-      options.*member = *static_cast<const T*>(object->pointer.get());
-  };
+  auto option = custom<O>(
+      std::move(name), std::move(type), std::move(sentence),
+      [member, wanted](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        Object* object = value.as_object(class_of<T>());
+        if (object == nullptr) return detail::wrong_type(value, info, wanted, problems);
+        if (object->closed) return problems.push_back(quoted(info.name) + " was closed");
+        if (object->pointer == nullptr) return;  // of a dry run
+        if constexpr (requires(const M& m) { m.get(); })
+          options.*member = std::static_pointer_cast<T>(object->pointer);
+        else
+          options.*member = *static_cast<const T*>(object->pointer.get());
+      });
   option.show = [member](const O& options) -> std::string {
-    if constexpr (requires { (options.*member).has_value(); }) {
-      return (options.*member).has_value() ? digest_text(*(options.*member)) : std::string();
-    } else if constexpr (requires(const M& m) { m.get(); }) {
-      return options.*member ? digest_text(*(options.*member)) : std::string();
-    } else {
-      return "";
-    }
+    return options.*member ? digest_text(*(options.*member)) : "";
   };
-  return option;
-}
-
-// `read` appends problems that begin with quoted(info.name).
-template <class O, class Read>
-Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
-  Option<O> option;
-  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
-  option.read = std::move(read);
   return option;
 }
 
@@ -371,18 +382,13 @@ Option<O> function(std::string name, std::string wanted, std::string sentence) {
 // A nested table; its problems join the outer list.
 template <class O, class Inner, class M>
 Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, std::string sentence) {
-  Option<O> option;
-  option.info = {std::move(name), "table", {}, "", "", std::move(sentence), false};
+  auto option = custom<O>(
+      std::move(name), "table", std::move(sentence),
+      [member, &inner](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+        if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+        detail::collect(problems, [&] { options.*member = inner.read(value, quoted(info.name)); });
+      });
   option.info.inner = &inner;
-  option.read = [member, &inner](const Argument& value, const OptionInfo& info, O& options,
-                                 Problems& problems) {
-    if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
-    try {
-      options.*member = inner.read(value, quoted(info.name));
-    } catch (const Error& error) {
-      problems.push_back(error.what());
-    }
-  };
   return option;
 }
 
@@ -447,7 +453,7 @@ class RowBlock final : public BlockInfo {
   // `rows` must outlive the block. `defaults`: the struct without options.
   RowBlock(std::span<const OptionRow> rows, std::any defaults);
 
-  std::vector<const OptionInfo*> options() const override;
+  std::vector<const OptionInfo*> options() const override { return pointers_to(infos_); }
   std::any read(const Argument& table, const std::string& caller) const;
   void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
 

@@ -6,8 +6,6 @@
 #include <array>
 #include <concepts>
 #include <functional>
-#include <memory>
-#include <new>
 #include <optional>
 #include <ranges>
 #include <string>
@@ -16,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/lua/registry/held.hpp"
 #include "bindings/lua/registry/registry.hpp"
 
 namespace asperity::lua {
@@ -155,31 +154,28 @@ class RecordField {
  public:
   template <std::invocable<const T&> Read>
   RecordField(std::string name, Read read, Dimension dimension, std::string sentence)
-      : info{std::move(name), detail::type_of_held<Held<Read>>(), std::move(sentence), dimension},
-        read_(read, [](const T& of, const void* held) {
-          return detail::value_of_held(std::invoke(*static_cast<const Read*>(held), of));
-        }) {}
+      : info{std::move(name), detail::type_of_held<Result<Read>>(), std::move(sentence), dimension},
+        read_([read](const T& of) { return detail::value_of_held(std::invoke(read, of)); }) {}
   template <std::invocable<const T&> Read>
   RecordField(std::string name, Read read, std::string sentence)
       : RecordField(std::move(name), read, dimension::number, std::move(sentence)) {}
   // A record or a list of records.
   template <std::invocable<const T&> Read, class U>
   RecordField(std::string name, Read read, const RecordType<U>& type, std::string sentence)
-      : info{std::move(name), type.name + (std::same_as<Held<Read>, U> ? "" : "[]"), std::move(sentence), {}},
-        read_(Typed<Read, U>{read, &type}, [](const T& of, const void* held) -> Value {
-          const auto& [how, made] = *static_cast<const Typed<Read, U>*>(held);
-          if constexpr (std::same_as<Held<Read>, U>) {
-            return (*made)(std::invoke(how, of));
-          } else {
-            return made->list(std::invoke(how, of));
-          }
+      : info{std::move(name),
+             type.name + (std::same_as<Result<Read>, U> ? "" : "[]"),
+             std::move(sentence),
+             {}},
+        read_([read, &type](const T& of) -> Value {
+          if constexpr (std::same_as<Result<Read>, U>)
+            return type(std::invoke(read, of));
+          else
+            return type.list(std::invoke(read, of));
         }) {}
   template <std::invocable<const T&> Read>
   RecordField(std::string name, std::string type, Read read, std::string sentence)
       : info{std::move(name), std::move(type), std::move(sentence), {}},
-        read_(read, [](const T& of, const void* held) -> Value {
-          return std::invoke(*static_cast<const Read*>(held), of);
-        }) {}
+        read_([read](const T& of) -> Value { return std::invoke(read, of); }) {}
 
   // Without the effect, reading the field is an error that names it.
   RecordField& needs(std::string effect) {
@@ -213,26 +209,9 @@ class RecordField {
 
  private:
   template <class Read>
-  using Held = std::remove_cvref_t<std::invoke_result_t<Read, const T&>>;
+  using Result = std::remove_cvref_t<std::invoke_result_t<Read, const T&>>;
 
-  template <class Read, class U>
-  struct Typed {
-    Read read;
-    const RecordType<U>* type;
-  };
-  // std::function would instantiate several functions for each of a thousand fields.
-  struct Reader {
-    using Function = Value (*)(const T&, const void* held);
-    template <class H>
-    Reader(const H& what, Function how) : function(how) {
-      static_assert(std::is_trivially_copyable_v<H> && sizeof(H) <= sizeof(held));
-      ::new (static_cast<void*>(held)) H(what);
-    }
-    Value operator()(const T& of) const { return function(of, held); }
-    alignas(void*) unsigned char held[4 * sizeof(void*)];
-    Function function;
-  };
-  Reader read_;
+  Held<Value(const T&)> read_;
   std::string effect_{};
   bool where_known_ = false;
   Dimension (*unit_)(const T&) = nullptr;

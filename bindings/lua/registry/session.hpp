@@ -12,6 +12,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bindings/lua/registry/lua_api.hpp"
@@ -98,6 +100,21 @@ struct SessionSettings {
   std::string script_digest;  // of script and arguments, or ""
 };
 
+// Gives a variable another value until the end of a scope.
+template <class T>
+class Temporarily {
+ public:
+  Temporarily(T& variable, std::type_identity_t<T> value)
+      : variable_(variable), before_(std::exchange(variable, std::move(value))) {}
+  ~Temporarily() { variable_ = std::move(before_); }
+  Temporarily(const Temporarily&) = delete;
+  Temporarily& operator=(const Temporarily&) = delete;
+
+ private:
+  T& variable_;
+  T before_;
+};
+
 class Session : public SessionSettings {
  public:
   explicit Session(Monitor& monitor) : monitor_(&monitor) {}
@@ -106,16 +123,10 @@ class Session : public SessionSettings {
 
   class Reporting {
    public:
-    Reporting(Session& session, Monitor& monitor) : session_(session), outer_(session.monitor_) {
-      session_.monitor_ = &monitor;
-    }
-    ~Reporting() { session_.monitor_ = outer_; }
-    Reporting(const Reporting&) = delete;
-    Reporting& operator=(const Reporting&) = delete;
+    Reporting(Session& session, Monitor& monitor) : monitor_(session.monitor_, &monitor) {}
 
    private:
-    Session& session_;
-    Monitor* outer_;
+    Temporarily<Monitor*> monitor_;
   };
 
   struct Running {

@@ -26,7 +26,9 @@ class Call;
 class Value;
 using Values = std::vector<Value>;
 
-// From make_class<T>(), which the binding of T specialises.
+// The binding of T declares make_class(For<T>).
+template <class T>
+struct For {};
 template <class T>
 const Class& class_of();
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -24,12 +25,7 @@ bool is_of(std::string_view caller, std::string_view wanted) {
 void push_value(lua_State* L, const std::string& text) {
   if (text == "true" || text == "false") return lua_pushboolean(L, text == "true");
   if (lua_stringtonumber(L, text.c_str()) != 0) return;
-  auto action = [&](lua_State* state) -> int {
-    lua_pushlstring(state, text.data(), text.size());
-    return 1;
-  };
-  if (protect(L, 0, 1, action) != LUA_OK)
-    throw Error(ErrorCode::out_of_memory, "there is no memory for the value of `--set`");
+  push_checked(L, text, "the value of `--set`");
 }
 
 }  // namespace

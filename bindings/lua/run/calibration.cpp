@@ -87,64 +87,54 @@ RecordField<ToldParameter> told_number(const char* name, const char* sentence) {
       .in(dimension_of);
 }
 
-const RecordType<ToldParameter>& calibrated_parameter_type() {
-  using P = ToldParameter;
-  using C = CalibratedParameter;
-  static const RecordType<P> type{
-      "CalibratedParameter",
-      "parameter",
-      "A parameter of a calibration or a fit, in SI.",
-      {told_number<&C::value>("value", "its estimate; nil where the rows do not determine it"),
-       told_number<&C::standard_error>(
-           "u", "its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter"),
-       told_number<&C::low>("low", "lower end of its linearised interval, not cut off at a bound"),
-       told_number<&C::high>("high", "upper end of its linearised interval"),
-       told_number<&C::profile_low>(
-           "profile_low", "lower end of its interval by profile likelihood; nil where the rows give none"),
-       told_number<&C::profile_high>(
-           "profile_high", "upper end of its interval by profile likelihood; nil where the rows give none"),
-       {"share_of_faces", [](const P& p) { return p.of.share_of_faces; },
-        "share of u² that the scatter of replicates makes; 0 without `replicate`"},
-       {"determined", [](const P& p) { return p.of.determined; }, "whether the rows determine it"},
-       {"at_lower", [](const P& p) { return p.of.at_lower; }, "whether it is at its lower bound"},
-       {"at_upper", [](const P& p) { return p.of.at_upper; }, "whether it is at its upper bound"},
-       {"profile_values",
-        [](const P& p) {
-          std::vector<double> values;
-          for (const ProfilePoint& point : p.of.profile) values.push_back(point.value);
-          return values;
-        },
-        "places at which its profile was computed"},
-       {"profile_excess",
-        [](const P& p) {
-          std::vector<double> values;
-          for (const ProfilePoint& point : p.of.profile) values.push_back(point.excess);
-          return values;
-        },
-        "(S - S_min)/s² there; the interval ends where it meets `cut`"}}};
-  return type;
+template <auto member, class Points>
+std::vector<double> column_of(const Points& points) {
+  std::vector<double> values;
+  for (const auto& point : points) values.push_back(point.*member);
+  return values;
 }
 
-const RecordType<CalibratedSpecimen>& calibrated_specimen_type() {
-  using S = CalibratedSpecimen;
-  static const RecordType<S> type{
-      "CalibratedSpecimen",
-      "specimen",
-      "A specimen of a calibration.",
-      {{"name", &S::name, "as its column tells it"},
-       {"rows", &S::rows, "how many rows are of it"},
-       {"residual", &S::residual,
-        "mean of its residuals: relative to the fit with scatter=\"relative\", in units of `u` where that is "
-        "known, else in SI"}}};
-  return type;
-}
+const RecordType<ToldParameter> calibrated_parameter_type{
+    "CalibratedParameter",
+    "parameter",
+    "A parameter of a calibration or a fit, in SI.",
+    {told_number<&CalibratedParameter::value>("value",
+                                              "its estimate; nil where the rows do not determine it"),
+     told_number<&CalibratedParameter::standard_error>(
+         "u", "its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter"),
+     told_number<&CalibratedParameter::low>("low",
+                                            "lower end of its linearised interval, not cut off at a bound"),
+     told_number<&CalibratedParameter::high>("high", "upper end of its linearised interval"),
+     told_number<&CalibratedParameter::profile_low>(
+         "profile_low", "lower end of its interval by profile likelihood; nil where the rows give none"),
+     told_number<&CalibratedParameter::profile_high>(
+         "profile_high", "upper end of its interval by profile likelihood; nil where the rows give none"),
+     {"share_of_faces", [](const ToldParameter& p) { return p.of.share_of_faces; },
+      "share of u² that the scatter of replicates makes; 0 without `replicate`"},
+     {"determined", [](const ToldParameter& p) { return p.of.determined; }, "whether the rows determine it"},
+     {"at_lower", [](const ToldParameter& p) { return p.of.at_lower; }, "whether it is at its lower bound"},
+     {"at_upper", [](const ToldParameter& p) { return p.of.at_upper; }, "whether it is at its upper bound"},
+     {"profile_values", [](const ToldParameter& p) { return column_of<&ProfilePoint::value>(p.of.profile); },
+      "places at which its profile was computed"},
+     {"profile_excess", [](const ToldParameter& p) { return column_of<&ProfilePoint::excess>(p.of.profile); },
+      "(S - S_min)/s² there; the interval ends where it meets `cut`"}}};
+
+const RecordType<CalibratedSpecimen> calibrated_specimen_type{
+    "CalibratedSpecimen",
+    "specimen",
+    "A specimen of a calibration.",
+    {{"name", &CalibratedSpecimen::name, "as its column tells it"},
+     {"rows", &CalibratedSpecimen::rows, "how many rows are of it"},
+     {"residual", &CalibratedSpecimen::residual,
+      "mean of its residuals: relative to the fit with scatter=\"relative\", in units of `u` where that is "
+      "known, else in SI"}}};
 
 Record told_parameters(const CalibrationReport& report) {
   Record record;
   record.name = "parameters";
   for (std::size_t p = 0; p < report.found.parameters.size(); ++p) {
     const CalibratedParameter& of = report.found.parameters[p];
-    Record one = calibrated_parameter_type()({of, report.dimensions[p]});
+    Record one = calibrated_parameter_type({of, report.dimensions[p]});
     one.name = of.name;
     record.add(of.name, std::move(one));
   }
@@ -174,30 +164,14 @@ List told_correlation(const CalibrationReport& report) {
 
 using Curve = std::vector<CurvePoint>;
 
-std::vector<double> of_points(const Curve& curve, double CurvePoint::*member) {
-  std::vector<double> values;
-  for (const CurvePoint& point : curve) values.push_back(point.*member);
-  return values;
-}
-
-const RecordType<Curve>& curve_type() {
-  static const RecordType<Curve> type{
-      "FitCurve",
-      "curve",
-      "A fitted curve over the range of the points, with the pointwise interval of the curve.",
-      {{"x", [](const Curve& c) { return of_points(c, &CurvePoint::x); }, "places, ascending"},
-       {"y", [](const Curve& c) { return of_points(c, &CurvePoint::y); }, "the curve there"},
-       {"low", [](const Curve& c) { return of_points(c, &CurvePoint::low); },
-        "lower end of its interval there"},
-       {"high", [](const Curve& c) { return of_points(c, &CurvePoint::high); },
-        "upper end of its interval there"}}};
-  return type;
-}
-
-template <auto read>
-Getter field(const char* name, const char* type, const char* sentence) {
-  return getter<read>(name, type, sentence);
-}
+const RecordType<Curve> curve_type{
+    "FitCurve",
+    "curve",
+    "A fitted curve over the range of the points, with the pointwise interval of the curve.",
+    {{"x", column_of<&CurvePoint::x, Curve>, "places, ascending"},
+     {"y", column_of<&CurvePoint::y, Curve>, "the curve there"},
+     {"low", column_of<&CurvePoint::low, Curve>, "lower end of its interval there"},
+     {"high", column_of<&CurvePoint::high, Curve>, "upper end of its interval there"}}};
 
 struct CalibrationChartKeys {
   std::optional<std::string> x;
@@ -206,23 +180,18 @@ struct CalibrationChartKeys {
   std::optional<std::string> file;
 };
 
-const Block<CalibrationChartKeys>& calibration_chart_block() {
-  using K = CalibrationChartKeys;
-  static const Block<K> block{
-      {text("x", &K::x, "the column along; without it, measured y against fitted y"),
-       flag("likelihood", &K::likelihood,
-            "draw the profile likelihood of each parameter instead, with the limit at which its interval "
-            "ends"),
-       text("title", &K::title, "above the chart"),
-       text("file", &K::file,
-            "an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood "
-            "calibration-<y>-likelihood.svg")}};
-  return block;
-}
+const Block<CalibrationChartKeys> calibration_chart_block{
+    {text("x", &CalibrationChartKeys::x, "the column along; without it, measured y against fitted y"),
+     flag("likelihood", &CalibrationChartKeys::likelihood,
+          "draw the profile likelihood of each parameter instead, with the limit at which its interval ends"),
+     text("title", &CalibrationChartKeys::title, "above the chart"),
+     text("file", &CalibrationChartKeys::file,
+          "an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood "
+          "calibration-<y>-likelihood.svg")}};
 
 Values chart_calibration(Call& call) {
   const CalibrationReport& report = call.self<CalibrationReport>();
-  const CalibrationChartKeys keys = call.options(calibration_chart_block());
+  const CalibrationChartKeys keys = call.options(calibration_chart_block);
   if (keys.likelihood && keys.x)
     throw Error(ErrorCode::bad_value,
                 "`x` has no effect on the chart of the likelihood, which has the parameters along x",
@@ -264,12 +233,12 @@ Option<CalibrationKeys> specimen_option() {
 }
 
 Option<CalibrationKeys> basis_option() {
-  return in_options(choice("basis", &CalibrationOptions::basis,
-                           {{"automatic", CalibrationBasis::automatic},
-                            {"rows", CalibrationBasis::rows},
-                            {"specimens", CalibrationBasis::specimens}},
-                           "the observations; automatic: rows, and specimens where they scatter "
-                           "(F test at 50 %)"));
+  return in_options(
+      choice("basis", &CalibrationOptions::basis,
+             {{"automatic", CalibrationBasis::automatic},
+              {"rows", CalibrationBasis::rows},
+              {"specimens", CalibrationBasis::specimens}},
+             "the observations; automatic: rows, and specimens where they scatter (F test at 50 %)"));
 }
 
 Option<CalibrationKeys> confidence_option() {
@@ -278,10 +247,9 @@ Option<CalibrationKeys> confidence_option() {
 }
 
 Option<CalibrationKeys> profile_option() {
-  return in_options(
-      flag("profile", &CalibrationOptions::profile,
-           "intervals by profile likelihood as well: two sets of parameters each where the model "
-           "is straight, ten or more where it is curved"));
+  return in_options(flag("profile", &CalibrationOptions::profile,
+                         "intervals by profile likelihood as well: two sets of parameters each where the "
+                         "model is straight, ten or more where it is curved"));
 }
 
 CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& keys) {
@@ -362,106 +330,95 @@ CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, Ca
 }
 
 // data table
-template <>
-const Class& class_of<CalibrationReport>() {
+Class make_class(For<CalibrationReport>) {
   using R = CalibrationReport;
-  static const Class type = [] {
-    Class c;
-    c.name = "Calibration";
-    c.article_name = "a calibration";
-    c.sentence =
-        "A result of lab.calibrate or t:fit. print() shows a line a parameter, correlation, verdict and "
-        "warnings.";
-    c.describe = [](const void* self) { return calibration_text(*static_cast<const R*>(self)); };
-    c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
-    c.results = {&calibrated_parameter_type(), &calibrated_specimen_type(), &curve_type()};
-    c.fields = {
-        field<told_parameters>("parameters", "table<string, CalibratedParameter>",
-                               "each parameter under its name"),
-        field<told_values>("values", "table<string, number>",
-                           "the estimates by name in SI, without those that are not determined"),
-        field<[](const R& r) {
-          std::vector<std::string> names;
-          for (const CalibratedParameter& of : r.found.parameters) names.push_back(of.name);
-          return names;
-        }>("names", "string[]", "of the parameters, in the order of `correlation`"),
-        field<[](const R& r) { return r.y; }>("y", "string", "the fitted column"),
-        field<[](const R& r) { return r.curve ? std::optional(r.curve->x) : std::nullopt; }>(
-            "x", "string?", "of t:fit: the column along"),
-        field<[](const R& r) {
-          return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
-        }>("name", "string?", "of t:fit: its name in charts"),
-        field<[](const R& r) { return r.curve ? Value(curve_type()(r.curve->curve)) : Value(); }>(
-            "curve", "FitCurve?", "of t:fit: the curve with its band, for drawing"),
-        field<[](const R& r) { return r.r_squared; }>(
-            "r_squared", "number?", "of t:fit: explained share of the scatter of y; nil if all y are equal"),
-        field<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
-                                                               "whether the rows determine every parameter"),
-        field<[](const R& r) { return r.found.verdict; }>(
-            "verdict", "string", "determined and undetermined parameters, and the basis of the intervals"),
-        field<[](const R& r) { return r.found.combinations; }>(
-            "combinations", "string[]",
-            "determined combinations of parameters that the rows do not separate"),
-        field<told_correlation>("correlation", "number[][]",
-                                "of the estimates; nan for parameters that are undetermined or at a bound"),
-        field<[](const R& r) { return r.found.condition; }>(
-            "condition", "number?",
-            "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
-            "direction is not seen"),
-        field<[](const R& r) { return r.numbers.size(); }>("n", "integer", "rows that were used"),
-        field<[](const R& r) { return r.left_out; }>(
-            "left_out", "integer", "rows with an empty cell, no finite number or a weight of 0"),
-        field<[](const R& r) { return std::vector<std::int64_t>(r.numbers.begin(), r.numbers.end()); }>(
-            "rows", "integer[]", "the rows that were used, counted from 1 after `where`"),
-        field<[](const R& r) { return r.found.fitted; }>("fitted", "number[]", "the model in each row"),
-        field<[](const R& r) { return known_numbers(r.found.fitted_low); }>(
-            "fitted_low", "number[]",
-            "lower end of the interval of the model there; nan where there is none"),
-        field<[](const R& r) { return known_numbers(r.found.fitted_high); }>("fitted_high", "number[]",
-                                                                             "upper end of it"),
-        field<[](const R& r) { return r.found.residuals; }>("residuals", "number[]",
-                                                            "y less the model in each row"),
-        field<[](const R& r) { return r.found.residual_deviation; }>(
-            "residual_sd", "number",
-            "standard deviation of an observation about the model: relative with scatter=\"relative\", in "
-            "units of `u` where that is known; 0 without degrees of freedom"),
-        field<[](const R& r) { return r.found.observations; }>("observations", "integer",
-                                                               "rows, or specimens where their means count"),
-        field<[](const R& r) { return r.found.degrees; }>(
-            "degrees", "integer", "degrees of freedom: observations less parameters that they determine"),
-        field<[](const R& r) { return r.found.by_specimens; }>("by_specimens", "boolean",
-                                                               "whether the means of specimens were fitted"),
-        field<[](const R& r) { return calibrated_specimen_type().list(r.found.specimens); }>(
-            "specimens", "CalibratedSpecimen[]",
-            "in the order of their first rows; empty without `specimen`"),
-        field<[](const R& r) {
-          return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->f) : std::nullopt;
-        }>("specimen_f", "number?",
-           "variance between specimens over that within them, as F has it; nil where it cannot be seen"),
-        field<[](const R& r) {
-          return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->p_value) : std::nullopt;
-        }>("specimen_p", "number?", "how often F is larger where specimens do not scatter"),
-        field<[](const R& r) { return r.found.confidence; }>("confidence", "number", "of the intervals"),
-        field<[](const R& r) { return r.found.cut; }>(
-            "cut", "number", "of the profile likelihood: t² of the degrees of freedom"),
-        field<[](const R& r) { return r.found.warnings; }>("warnings", "string[]", "what to look at"),
-        field<[](const R& r) { return r.found.calls; }>("calls", "integer", "how often the model was called"),
-    };
-    c.methods = {
-        {.name = "chart",
-         .body = chart_calibration,
-         .sentence = "Draws the measured rows with the fit and its band, or the profile likelihood of each "
-                     "parameter; returns the file. Takes no call of the model.",
-         .options = optional(calibration_chart_block()),
-         .returns = "string",
-         .example =
-             "lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, y=\"mu\", "
-             "parameters={ mu0=0.3, rise=0 } }:chart{ x=\"N\" }",
-         .heavy = true},
-    };
-    return c;
-  }();
-  return type;
+  Class c{"Calibration", "a calibration",
+          "A result of lab.calibrate or t:fit. print() shows a line a parameter, correlation, verdict and "
+          "warnings."};
+  c.describe = text_of<calibration_text>;
+  c.digest = text_of<calibration_digest>;
+  c.results = {&calibrated_parameter_type, &calibrated_specimen_type, &curve_type};
+  c.fields = {
+      getter<told_parameters>("parameters", "table<string, CalibratedParameter>",
+                              "each parameter under its name"),
+      getter<told_values>("values", "table<string, number>",
+                          "the estimates by name in SI, without those that are not determined"),
+      getter<[](const R& r) {
+        std::vector<std::string> names;
+        for (const CalibratedParameter& of : r.found.parameters) names.push_back(of.name);
+        return names;
+      }>("names", "string[]", "of the parameters, in the order of `correlation`"),
+      getter<[](const R& r) { return r.y; }>("y", "string", "the fitted column"),
+      getter<[](const R& r) { return r.curve ? std::optional(r.curve->x) : std::nullopt; }>(
+          "x", "string?", "of t:fit: the column along"),
+      getter<[](const R& r) {
+        return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
+      }>("name", "string?", "of t:fit: its name in charts"),
+      getter<[](const R& r) { return r.curve ? Value(curve_type(r.curve->curve)) : Value(); }>(
+          "curve", "FitCurve?", "of t:fit: the curve with its band, for drawing"),
+      getter<[](const R& r) { return r.r_squared; }>(
+          "r_squared", "number?", "of t:fit: explained share of the scatter of y; nil if all y are equal"),
+      getter<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
+                                                              "whether the rows determine every parameter"),
+      getter<[](const R& r) { return r.found.verdict; }>(
+          "verdict", "string", "determined and undetermined parameters, and the basis of the intervals"),
+      getter<[](const R& r) { return r.found.combinations; }>(
+          "combinations", "string[]", "determined combinations of parameters that the rows do not separate"),
+      getter<told_correlation>("correlation", "number[][]",
+                               "of the estimates; nan for parameters that are undetermined or at a bound"),
+      getter<[](const R& r) { return r.found.condition; }>(
+          "condition", "number?",
+          "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
+          "direction is not seen"),
+      getter<[](const R& r) { return r.numbers.size(); }>("n", "integer", "rows that were used"),
+      getter<[](const R& r) { return r.left_out; }>(
+          "left_out", "integer", "rows with an empty cell, no finite number or a weight of 0"),
+      getter<[](const R& r) { return std::vector<std::int64_t>(r.numbers.begin(), r.numbers.end()); }>(
+          "rows", "integer[]", "the rows that were used, counted from 1 after `where`"),
+      getter<[](const R& r) { return r.found.fitted; }>("fitted", "number[]", "the model in each row"),
+      getter<[](const R& r) { return known_numbers(r.found.fitted_low); }>(
+          "fitted_low", "number[]", "lower end of the interval of the model there; nan where there is none"),
+      getter<[](const R& r) { return known_numbers(r.found.fitted_high); }>("fitted_high", "number[]",
+                                                                            "upper end of it"),
+      getter<[](const R& r) { return r.found.residuals; }>("residuals", "number[]",
+                                                           "y less the model in each row"),
+      getter<[](const R& r) { return r.found.residual_deviation; }>(
+          "residual_sd", "number",
+          "standard deviation of an observation about the model: relative with scatter=\"relative\", in "
+          "units of `u` where that is known; 0 without degrees of freedom"),
+      getter<[](const R& r) { return r.found.observations; }>("observations", "integer",
+                                                              "rows, or specimens where their means count"),
+      getter<[](const R& r) { return r.found.degrees; }>(
+          "degrees", "integer", "degrees of freedom: observations less parameters that they determine"),
+      getter<[](const R& r) { return r.found.by_specimens; }>("by_specimens", "boolean",
+                                                              "whether the means of specimens were fitted"),
+      getter<[](const R& r) { return calibrated_specimen_type.list(r.found.specimens); }>(
+          "specimens", "CalibratedSpecimen[]", "in the order of their first rows; empty without `specimen`"),
+      getter<[](const R& r) {
+        return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->f) : std::nullopt;
+      }>("specimen_f", "number?",
+         "variance between specimens over that within them, as F has it; nil where it cannot be seen"),
+      getter<[](const R& r) {
+        return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->p_value) : std::nullopt;
+      }>("specimen_p", "number?", "how often F is larger where specimens do not scatter"),
+      getter<[](const R& r) { return r.found.confidence; }>("confidence", "number", "of the intervals"),
+      getter<[](const R& r) { return r.found.cut; }>(
+          "cut", "number", "of the profile likelihood: t² of the degrees of freedom"),
+      getter<[](const R& r) { return r.found.warnings; }>("warnings", "string[]", "what to look at"),
+      getter<[](const R& r) { return r.found.calls; }>("calls", "integer", "how often the model was called"),
+  };
+  c.methods = {
+      {.name = "chart",
+       .body = chart_calibration,
+       .sentence = "Draws the measured rows with the fit and its band, or the profile likelihood of each "
+                   "parameter; returns the file. Takes no call of the model.",
+       .options = optional(calibration_chart_block),
+       .returns = "string",
+       .example = "lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, "
+                  "y=\"mu\", parameters={ mu0=0.3, rise=0 } }:chart{ x=\"N\" }",
+       .heavy = true},
+  };
+  return c;
 }
 
 }  // namespace asperity::lua

@@ -45,7 +45,6 @@ CalibrationInput calibration_input(const Table& table, const CalibrationKeys& ke
 CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, CalibrationInput input,
                                      Calibration found);
 
-template <>
-const Class& class_of<CalibrationReport>();
+Class make_class(For<CalibrationReport>);
 
 }  // namespace asperity::lua

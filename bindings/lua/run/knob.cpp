@@ -14,8 +14,7 @@ namespace asperity::lua {
 
 namespace {
 
-struct KnobKeys {
-  RunKnob knob;
+struct KnobKeys : RunKnob {
   // The key that fixed the dimension; empty after plain numbers.
   std::string told_by, told;
 };
@@ -25,78 +24,39 @@ Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::s
   return custom<KnobKeys>(
              std::move(name), "number|string", std::move(sentence),
              [member](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-               if (value.is_unknown()) return;
-               if (value.is_number()) {
-                 keys.knob.*member = value.number();
-                 return;
-               }
-               if (!value.is_text())
-                 return detail::wrong_type(value, info, "a number or a quantity such as \"20 MPa\"",
-                                           problems);
+               const auto quantity = detail::read_any_quantity(
+                   value, info.name, "a number or a quantity such as \"20 MPa\"", problems);
+               if (!quantity) return;
+               keys.*member = quantity->value;
+               if (quantity->dimension == dimension::number) return;
                const std::string text(value.text());
-               try {
-                 const Quantity quantity = parse_quantity(text);
-                 keys.knob.*member = quantity.value;
-                 if (quantity.dimension == dimension::number) return;
-                 if (!keys.told_by.empty() && quantity.dimension != keys.knob.dimension) {
-                   problems.push_back(quoted(info.name) + " is " + quoted(text) + ", " +
-                                      describe(quantity.dimension) + ", and " + quoted(keys.told_by) +
-                                      " is " + quoted(keys.told) + ", " + describe(keys.knob.dimension) +
-                                      "; give quantities of one kind");
-                   return;
-                 }
-                 keys.knob.dimension = quantity.dimension;
-                 keys.told_by = info.name;
-                 keys.told = text;
-               } catch (const Error& error) {
-                 problems.push_back(quoted(info.name) + ": " + error.what());
-               }
+               if (!keys.told_by.empty() && quantity->dimension != keys.dimension)
+                 return problems.push_back(quoted(info.name) + " is " + quoted(text) + ", " +
+                                           describe(quantity->dimension) + ", and " + quoted(keys.told_by) +
+                                           " is " + quoted(keys.told) + ", " + describe(keys.dimension) +
+                                           "; give quantities of one kind");
+               keys.dimension = quantity->dimension;
+               keys.told_by = info.name;
+               keys.told = text;
              })
       .required();
 }
 
-void check_knob(KnobKeys& keys, Problems& problems) {
-  if (!problems.empty()) return;
-  try {
-    require_knob(keys.knob);
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
-}
-
-const Block<KnobKeys>& knob_block() {
-  static const Block<KnobKeys> block{
-      {Option<KnobKeys>(
-           custom<KnobKeys>(
-               "name", "string", "by which it is set; the same one in a script is the same knob",
-               [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-                 if (value.is_text())
-                   keys.knob.name = std::string(value.text());
-                 else
-                   detail::wrong_type(value, info, "a string", problems);
-               }))
-           .required(),
-       knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
-       knob_quantity("to", &RunKnob::to, "the upper end"),
-       knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
-       custom<KnobKeys>(
-           "log", "boolean", "equal ways of the slider are equal ratios",
-           [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
-             if (value.is_boolean())
-               keys.knob.log = value.boolean();
-             else
-               detail::wrong_type(value, info, "true or false", problems);
-           })
-           .defaults_to("false")},
-      check_knob};
-  return block;
-}
+const Block<KnobKeys> knob_block{
+    {text("name", &RunKnob::name, "by which it is set; the same one in a script is the same knob").required(),
+     knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
+     knob_quantity("to", &RunKnob::to, "the upper end"),
+     knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
+     flag("log", &RunKnob::log, "equal ways of the slider are equal ratios")},
+    [](KnobKeys& keys, Problems& problems) {
+      if (problems.empty()) detail::collect(problems, [&] { require_knob(keys); });
+    }};
 
 Values make_knob(Call& call) {
-  const KnobKeys keys = call.options(knob_block());
+  const KnobKeys keys = call.options(knob_block);
   const Session& session = call.session();
-  const double value = session.knobs->make(keys.knob);
-  if (session.notes != nullptr) session.notes->knobs.push_back(keys.knob);
+  const double value = session.knobs->make(keys);
+  if (session.notes != nullptr) session.notes->knobs.push_back(keys);
   note_knobs(session);
   return {value};
 }
@@ -133,37 +93,31 @@ void note_knobs(const Session& session) {
     session.run->note("knobs", session.knobs->json());
 }
 
-const Module& knob_module() {
-  static const Module module = [] {
-    Module m;
-    m.path = "lab.knob";
-    m.sentence = "Numbers of a script that whoever runs it may set otherwise.";
-    m.functions = {
-        {.name = "set",
-         .body = set_knob,
-         .sentence =
-             "Moves a knob in the prompt. After the line has ended, all entered lines run again from the "
-             "start with the new value; heavy calls with unchanged inputs are taken from memory. If the "
-             "run fails, nothing changes. A script cannot move its own knobs.",
-         .parameters = {{"name", "string", "of a knob that was made"},
-                        {"value", "number|string", "between its bounds; a plain number is SI"}},
-         .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};
-    m.call = Function{
-        .name = "knob",
-        .body = make_knob,
-        .sentence =
-            "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
-            "page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run "
-            "records the values it was made with, and replay and resume take those.",
-        .options = &knob_block(),
-        .returns = "number",
-        .example =
-            "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
-            "log=true }",
-        .look = look_at_knob};
-    return m;
-  }();
-  return module;
+Module knob_module() {
+  Module m{"lab.knob", "Numbers of a script that whoever runs it may set otherwise."};
+  m.functions = {
+      {.name = "set",
+       .body = set_knob,
+       .sentence = "Moves a knob in the prompt. After the line has ended, all entered lines run again from "
+                   "the start with the new value; heavy calls with unchanged inputs are taken from memory. "
+                   "If the run fails, nothing changes. A script cannot move its own knobs.",
+       .parameters = {{"name", "string", "of a knob that was made"},
+                      {"value", "number|string", "between its bounds; a plain number is SI"}},
+       .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};
+  m.call =
+      Function{.name = "knob",
+               .body = make_knob,
+               .sentence =
+                   "A number that may be set from outside within bounds; returns its value, in SI. A slider "
+                   "on the page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command "
+                   "line. A run records the values it was made with, and replay and resume take those.",
+               .options = &knob_block,
+               .returns = "number",
+               .example =
+                   "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
+                   "log=true }",
+               .look = look_at_knob};
+  return m;
 }
 
 }  // namespace asperity::lua

@@ -67,12 +67,7 @@ void add_cells(std::vector<Entry>& row, const Argument& given) {
 void add_cells(std::vector<Entry>& row, lua_State* L, const Record& record, Table& table) {
   for (const Record::Entry& entry : record.entries) {
     const Argument::StackGuard guard(L);
-    auto push_value = [&entry](lua_State* s) {
-      push(s, entry.value);
-      return 1;
-    };
-    if (protect(L, 0, 1, push_value) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "there is no memory for a table");
+    push_checked(L, entry.value, "a table");
     const auto cell = cell_of(Argument(L, -1));
     if (!cell) continue;
     if (is_number(*cell) && !table.find_column(entry.field))
@@ -89,17 +84,16 @@ struct NumberWithUnit {
 
 std::vector<NumberWithUnit> numbers_with_units(const Argument& rows) {
   std::vector<NumberWithUnit> found;
-  for (std::int64_t k = 1; k <= rows.length(); ++k)
-    rows.element(k, [&](const Argument& row) {
-      if (!row.is_table()) return;
-      row.each([&](const Argument& key, const Argument& value) {
-        if (!key.is_text() || !value.is_number()) return;
-        const TableColumn column = split_column_unit(key.text());
-        if (!column.unit.empty())
-          found.push_back(
-              {k, std::string(key.text()), column.name, column.unit, from_unit(value.number(), column.unit)});
-      });
+  rows.elements([&](const Argument& row, std::int64_t k) {
+    if (!row.is_table()) return;
+    row.each([&](const Argument& key, const Argument& value) {
+      if (!key.is_text() || !value.is_number()) return;
+      const TableColumn column = split_column_unit(key.text());
+      if (!column.unit.empty())
+        found.push_back(
+            {k, std::string(key.text()), column.name, column.unit, from_unit(value.number(), column.unit)});
     });
+  });
   return found;
 }
 
@@ -110,8 +104,8 @@ constexpr const char* units_key = "units";
 Table table_of_rows(const Call& call, const Argument& rows) {
   Table table;
   table.rename("the table");
-  for (std::int64_t k = 1; rows.is_table() && k <= rows.length(); ++k)
-    rows.element(k, [&](const Argument& given) {
+  if (rows.is_table())
+    rows.elements([&](const Argument& given, std::int64_t k) {
       std::vector<Entry> row;
       if (const auto record = record_at(call.L, given.index()))
         add_cells(row, call.L, *record, table);

@@ -15,10 +15,9 @@
 namespace asperity::lua {
 
 // lab.table: immutable tables from files, rows or notebooks.
-template <>
-const Class& class_of<asperity::Table>();
+Class make_class(For<asperity::Table>);
 
-const Module& table_module();
+Module table_module();
 
 // The table, or the notebook's present rows.
 std::shared_ptr<const asperity::Table> table_of_self(const Call& call);
@@ -50,19 +49,17 @@ Function chart_method();
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 
 // lab.notebook: rows with free columns, expectations and charts.
-template <>
-const Class& class_of<Notebook>();
+Class make_class(For<Notebook>);
 Function notebook_function();
-const Block<NotebookChart>& notebook_chart_block();
+extern const Block<NotebookChart> notebook_chart_block;
 
 // lab.knob: numbers that the user may change. lab.knob.set moves a knob interactively.
-const Module& knob_module();
+Module knob_module();
 // No effect without knobs or in a case.
 void note_knobs(const Session& session);
 
 // lab.ledger: the costs of all calls, field reads and turns of iterators, entered by the calling frames.
-template <>
-const Class& class_of<LedgerReport>();
+Class make_class(For<LedgerReport>);
 Function ledger_function();
 
 }  // namespace asperity::lua

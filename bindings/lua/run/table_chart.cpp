@@ -37,11 +37,8 @@ void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& pro
   static const std::vector<std::string> keys = {"x", "y", "name"};
   const std::string place = "lines[" + std::to_string(k) + "]";
   if (value.is_unknown()) return;
-  if (!value.is_table()) {
-    problems.push_back(quoted(place) + " is " + value.describe() +
-                       "; give a table such as { y=0.4, name=\"measured\" }");
-    return;
-  }
+  if (!value.is_table())
+    return detail::wrong_type(value, place, "a table such as { y=0.4, name=\"measured\" }", problems);
   ReferenceLine line;
   bool unknown = false;
   value.each([&](const Argument& key, const Argument& given) {
@@ -54,8 +51,7 @@ void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& pro
     } else if (name == "name" && given.is_text()) {
       line.name = given.text();
     } else if (name == "name") {
-      if (!given.is_unknown())
-        problems.push_back(quoted(place + ".name") + " is " + given.describe() + "; give a string");
+      if (!given.is_unknown()) detail::wrong_type(given, place + ".name", "a string", problems);
     } else {
       problems.push_back(quoted(place) + " has the key " + (key.is_text() ? quoted(name) : key.describe()) +
                          did_you_mean(name, keys) + "; a line has x or y, and a name");
@@ -71,8 +67,7 @@ void read_lines(const Argument& value, const OptionInfo& info, C& c, Problems& p
   if (value.is_boolean()) {
     c.lines = value.boolean();
   } else if (value.is_table() && value.length() > 0) {
-    for (std::int64_t k = 1; k <= value.length(); ++k)
-      value.element(k, [&](const Argument& part) { read_line_across(part, k, c, problems); });
+    value.elements([&](const Argument& part, std::int64_t k) { read_line_across(part, k, c, problems); });
   } else {
     detail::wrong_type(value, info,
                        "true, false, or a list of lines such as { { y=0.4, name=\"measured\" } }", problems);
@@ -89,7 +84,7 @@ void read_fits(const Argument& value, const OptionInfo& info, C& c, Problems& pr
   if (!value.is_table()) return take(value);
   if (value.length() == 0)
     return detail::wrong_type(value, info, "the result of t:fit{...}, or a list of such results", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+  value.elements(take);
 }
 
 // Only names: functions are read when the chart is drawn.
@@ -111,54 +106,46 @@ void read_functions(const Argument& value, const OptionInfo& info, C& c, Problem
 
 std::vector<Option<C>> panel_keys(bool first) {
   auto x = text("x", &C::x, "the column along");
-  std::vector<Option<C>> keys;
-  keys.push_back(first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"));
-  keys.push_back(
-      texts_key("y", "string|string[]", "the column, or columns of one unit, up", &C::y).required());
-  keys.push_back(text("one_line_per", &C::one_line_per, "a column; one line for each of its values"));
-  keys.push_back(custom<C>(
-      "spread", "boolean|string",
-      "error bars: true for the scatter of rows that share x, or a column that holds them", read_spread));
-  keys.push_back(custom<C>(
-      "interval", "{string, string}",
-      "error bars: the columns that hold their lower and upper ends, as t:mean gives them", read_interval));
-  keys.push_back(where_key(&C::where));
-  keys.push_back(flag("log_x", &C::log_x, "logarithmic axis along"));
-  keys.push_back(flag("log_y", &C::log_y, "logarithmic axis up"));
-  keys.push_back(flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"));
-  keys.push_back(custom<C>("lines", "boolean|table[]",
-                           "whether to join the points: where a fit is drawn or names stand along x they are "
-                           "not, unless asked for; or a list of lines across, each with y or x, a number in "
-                           "the column's unit or a quantity, and a name",
-                           read_lines)
-                     .defaults_to("true"));
-  keys.push_back(flag("points", &C::points, "mark the points"));
-  keys.push_back(custom<C>("fit", "Calibration|Calibration[]",
-                           "a result of t:fit for these columns, drawn with the band of the curve",
-                           read_fits));
-  keys.push_back(custom<C>("functions", "table<string, function>",
-                           "functions of x drawn as lines under their names, in the units of the columns",
-                           read_functions));
-  keys.push_back(text("title", &C::title, "above the chart"));
-  keys.push_back(text("x_label", &C::x_label, "instead of the column's name"));
-  keys.push_back(text("y_label", &C::y_label, "instead of the column's name"));
-  keys.push_back(
-      choice("legend", &C::legend,
-             {{"right", "right"},
-              {"below", "below"},
-              {"top left", "top left"},
-              {"top right", "top right"},
-              {"bottom left", "bottom left"},
-              {"bottom right", "bottom right"},
-              {"none", "none"}},
-             "the place of the names of lines; default right, of long names or with `width` below"));
-  return keys;
+  return {first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"),
+          texts_key("y", "string|string[]", "the column, or columns of one unit, up", &C::y).required(),
+          text("one_line_per", &C::one_line_per, "a column; one line for each of its values"),
+          custom<C>("spread", "boolean|string",
+                    "error bars: true for the scatter of rows that share x, or a column that holds them",
+                    read_spread),
+          custom<C>("interval", "{string, string}",
+                    "error bars: the columns that hold their lower and upper ends, as t:mean gives them",
+                    read_interval),
+          where_key(&C::where),
+          flag("log_x", &C::log_x, "logarithmic axis along"),
+          flag("log_y", &C::log_y, "logarithmic axis up"),
+          flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"),
+          custom<C>("lines", "boolean|table[]",
+                    "whether to join the points: where a fit is drawn or names stand along x they are "
+                    "not, unless asked for; or a list of lines across, each with y or x, a number in "
+                    "the column's unit or a quantity, and a name",
+                    read_lines)
+              .defaults_to("true"),
+          flag("points", &C::points, "mark the points"),
+          custom<C>("fit", "Calibration|Calibration[]",
+                    "a result of t:fit for these columns, drawn with the band of the curve", read_fits),
+          custom<C>("functions", "table<string, function>",
+                    "functions of x drawn as lines under their names, in the units of the columns",
+                    read_functions),
+          text("title", &C::title, "above the chart"),
+          text("x_label", &C::x_label, "instead of the column's name"),
+          text("y_label", &C::y_label, "instead of the column's name"),
+          choice("legend", &C::legend,
+                 {{"right", "right"},
+                  {"below", "below"},
+                  {"top left", "top left"},
+                  {"top right", "top right"},
+                  {"bottom left", "bottom left"},
+                  {"bottom right", "bottom right"},
+                  {"none", "none"}},
+                 "the place of the names of lines; default right, of long names or with `width` below")};
 }
 
-const Block<NotebookChart>& below_block() {
-  static const Block<C> block{panel_keys(false)};
-  return block;
-}
+const Block<NotebookChart> below_block{panel_keys(false)};
 
 struct Wanted {
   bool below;
@@ -185,7 +172,7 @@ void with_functions(const Argument& chart, std::vector<Wanted>& wanted, std::siz
 }
 
 Values chart_rows(Call& call) {
-  NotebookChart options = call.options(notebook_chart_block());
+  NotebookChart options = call.options(notebook_chart_block);
   RunDirectory& run = run_of(call, "draws no charts", "return its results, and draw it after the loop");
   std::vector<Wanted> wanted;
   for (FunctionLine& line : options.functions) wanted.push_back({false, &line});
@@ -210,41 +197,33 @@ Values chart_rows(Call& call) {
 
 }  // namespace
 
-const Block<NotebookChart>& notebook_chart_block() {
-  static const Block<C> block = [] {
-    std::vector<Option<C>> keys = panel_keys(true);
-    Option<C> below = custom<C>(
-        "below", "table",
-        "a second panel below, with the same keys but for `file`; `x` is that of the first unless given",
-        [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
-          if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
-          try {
-            c.below = std::make_shared<C>(below_block().read(value, quoted(info.name)));
-          } catch (const Error& error) {
-            problems.push_back(error.what());
-          }
-        });
-    below.info.inner = &below_block();
-    keys.push_back(std::move(below));
-    keys.push_back(
-        quantity("width", &C::width, dimension::length, inside(0.02, 1),
-                 "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"));
-    keys.push_back(
-        number("font_size", &C::font_size, inside(3, 40),
-               "of the text in print, in points; default 8, with a `width`, or 240 mm without one"));
-    keys.push_back(text("file", &C::file,
-                        "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
-                        "table table-<y>-<x>.svg"));
-    return Block<C>{std::move(keys)};
-  }();
-  return block;
-}
+const Block<NotebookChart> notebook_chart_block = [] {
+  std::vector<Option<C>> keys = panel_keys(true);
+  Option<C> below = custom<C>(
+      "below", "table",
+      "a second panel below, with the same keys but for `file`; `x` is that of the first unless given",
+      [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+        if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+        detail::collect(problems,
+                        [&] { c.below = std::make_shared<C>(below_block.read(value, quoted(info.name))); });
+      });
+  below.info.inner = &below_block;
+  append(keys, std::move(below),
+         quantity("width", &C::width, dimension::length, inside(0.02, 1),
+                  "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"),
+         number("font_size", &C::font_size, inside(3, 40),
+                "of the text in print, in points; default 8, with a `width`, or 240 mm without one"),
+         text("file", &C::file,
+              "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
+              "table table-<y>-<x>.svg"));
+  return Block<C>{std::move(keys)};
+}();
 
 Function chart_method() {
   return {.name = "chart",
           .body = chart_rows,
           .sentence = "Draws columns against a column; returns the file.",
-          .options = &notebook_chart_block(),
+          .options = &notebook_chart_block,
           .returns = "string",
           .example = "book:chart{ x=\"D\", y=\"mu\", one_line_per=\"r\" }",
           .heavy = true};

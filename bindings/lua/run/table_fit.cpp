@@ -2,13 +2,11 @@
 #include <map>
 #include <utility>
 
-#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/calibration.hpp"
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/state.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/study/curve_fit.hpp"
 
@@ -68,29 +66,24 @@ void check_fit(FitKeys& keys, Problems& problems) {
   keys.options.relative_u = keys.weights.has_value();
 }
 
-const Block<FitKeys>& fit_block() {
-  using K = FitKeys;
-  static const Block<K> block{
-      {text("x", &CalibrationKeys::x, "the column along").required(),
-       text("y", &CalibrationKeys::y, "the column that is fitted").required(),
-       custom<K>(
-           "model", "\"linear\"|\"power\"|function",
-           "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
-           "returns y from the table q of parameters and the columns of a row, all in SI. Where the curve "
-           "is drawn, row has x only",
-           read_model)
-           .required(),
-       custom<K>("start", "table", "for a function: its parameters by name, with values to begin from",
-                 read_start),
-       u_option(), scatter_option(), specimen_option(), basis_option(),
-       text("weights", &CalibrationKeys::weights,
-            "a column of relative weights, with intervals that rest on the residuals; `u` instead where the "
-            "uncertainty of y is known"),
-       where_key(&CalibrationKeys::where), confidence_option(), profile_option(),
-       text("name", &K::name, "its name in charts")},
-      check_fit};
-  return block;
-}
+const Block<FitKeys> fit_block{
+    {text("x", &CalibrationKeys::x, "the column along").required(),
+     text("y", &CalibrationKeys::y, "the column that is fitted").required(),
+     custom<FitKeys>("model", "\"linear\"|\"power\"|function",
+                     "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
+                     "returns y from the table q of parameters and the columns of a row, all in SI. Where "
+                     "the curve is drawn, row has x only",
+                     read_model)
+         .required(),
+     custom<FitKeys>("start", "table", "for a function: its parameters by name, with values to begin from",
+                     read_start),
+     u_option(), scatter_option(), specimen_option(), basis_option(),
+     text("weights", &CalibrationKeys::weights,
+          "a column of relative weights, with intervals that rest on the residuals; `u` instead where the "
+          "uncertainty of y is known"),
+     where_key(&CalibrationKeys::where), confidence_option(), profile_option(),
+     text("name", &FitKeys::name, "its name in charts")},
+    check_fit};
 
 // model(q, row): row from the columns of the table, or x alone.
 class ScriptModel {
@@ -117,16 +110,8 @@ class ScriptModel {
     for (std::size_t k = 0; k < parameters.size(); ++k) q.items[k].second = parameters[k];
     lua_State* L = function_.state();
     const Argument::StackGuard guard(L);
-    lua_pushvalue(L, function_.index());
-    const Value arguments[] = {std::move(q), std::move(row)};
-    auto push_both = [&arguments](lua_State* s) {
-      for (const Value& argument : arguments) push(s, argument);
-      return 2;
-    };
-    if (protect(L, 0, 2, push_both) != LUA_OK || lua_pcall(L, 2, 1, 0) != LUA_OK) {
-      stop_flag().check();
-      throw Error(ErrorCode::bad_value, "the function `model` failed: " + error_text(L, -1), order);
-    }
+    if (const auto failure = failure_of_call(function_, {std::move(q), std::move(row)}))
+      throw Error(ErrorCode::bad_value, "the function `model` failed: " + *failure, order);
     const Argument result(L, -1);
     if (!result.is_number())
       throw Error(ErrorCode::bad_value, "the function `model` returned " + result.describe(),
@@ -166,7 +151,7 @@ void show_line_in_units(CalibrationReport& report, const FitKeys& keys) {
 }
 
 Values fit_of_columns(Call& call) {
-  const FitKeys keys = call.options(fit_block());
+  const FitKeys keys = call.options(fit_block);
   CalibrationInput input = calibration_input(*table_of_self(call), keys);
   CurveFit fit = fit_of(call, keys, input);
   CalibrationReport report = calibration_report(call, keys, std::move(input), std::move(fit.found));
@@ -180,24 +165,21 @@ Values fit_of_columns(Call& call) {
 }  // namespace
 
 std::optional<FittedCurve> fitted_curve_of(const Argument& value) {
-  const Object* object = value.as_object(class_of<CalibrationReport>());
-  return object != nullptr && object->pointer != nullptr
-             ? std::static_pointer_cast<const CalibrationReport>(object->pointer)->curve
-             : std::nullopt;
+  const auto* report = value.as<CalibrationReport>();
+  return report != nullptr ? report->curve : std::nullopt;
 }
 
 Function fit_method() {
-  return {
-      .name = "fit",
-      .body = fit_of_columns,
-      .sentence =
-          "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals "
-          "and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` "
-          "draws it with its band. Undetermined parameters are an error with their names.",
-      .options = &fit_block(),
-      .returns = "Calibration",
-      .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
-      .unknown_when_dry = true};
+  return {.name = "fit",
+          .body = fit_of_columns,
+          .sentence =
+              "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with "
+              "intervals and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` "
+              "draws it with its band. Undetermined parameters are an error with their names.",
+          .options = &fit_block,
+          .returns = "Calibration",
+          .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
+          .unknown_when_dry = true};
 }
 
 }  // namespace asperity::lua

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
@@ -19,13 +17,6 @@ namespace {
 
 using Rows = asperity::Table;
 
-std::string name_of_self(const Call& call) {
-  const auto* book = Argument(call.L, 1).as<Notebook>();
-  return book != nullptr ? book->name() : table_of_self(call)->name();
-}
-
-Values all_rows(Call& call) { return {rows_of_table(*table_of_self(call))}; }
-
 Values each_row(Call& call) {
   const auto table = table_of_self(call);
   auto next = std::make_shared<std::size_t>(0);
@@ -36,23 +27,18 @@ Values each_row(Call& call) {
                    call.function_name()}};
 }
 
-// --- sorting, computed columns
-
 struct SortKeys {
   std::vector<std::string> by;
   bool descending = false;
 };
 
-const Block<SortKeys>& sort_block() {
-  using K = SortKeys;
-  static const Block<K> block{
-      {texts_key("by", "string|string[]", "the column, or columns, the first one first", &K::by).required(),
-       flag("descending", &K::descending, "largest first")}};
-  return block;
-}
+const Block<SortKeys> sort_block{
+    {texts_key("by", "string|string[]", "the column, or columns, the first one first", &SortKeys::by)
+         .required(),
+     flag("descending", &SortKeys::descending, "largest first")}};
 
 Values sort_rows(Call& call) {
-  const SortKeys keys = call.options(sort_block());
+  const SortKeys keys = call.options(sort_block);
   const auto table = table_of_self(call);
   std::vector<std::size_t> columns, order(table->rows());
   for (const std::string& name : keys.by) columns.push_back(table->column(name, "by"));
@@ -76,16 +62,7 @@ Cell computed_cell(const Call& call, const Argument& function, const std::string
     return Error(ErrorCode::bad_value, "the function of " + quoted(column) + " failed in row " +
                                            std::to_string(number) + ": " + why);
   };
-  lua_pushvalue(L, function.index());
-  const Value value(row);
-  auto push_row = [&value](lua_State* s) {
-    push(s, value);
-    return 1;
-  };
-  if (protect(L, 0, 1, push_row) != LUA_OK || lua_pcall(L, 1, 1, 0) != LUA_OK) {
-    stop_flag().check();
-    throw failed(error_text(L, -1));
-  }
+  if (const auto failure = failure_of_call(function, {row})) throw failed(*failure);
   const Argument answer(L, -1);
   if (answer.is_nil()) return {};
   const auto cell = cell_of(answer);
@@ -131,8 +108,6 @@ Values with_columns(Call& call) {
   return {object(std::move(wider))};
 }
 
-// --- one number of a column
-
 enum class Reduction { least, greatest, sum };
 
 template <Reduction reduction>
@@ -145,8 +120,6 @@ Values reduced(Call& call) {
   const auto ends = std::ranges::minmax(values);
   return {reduction == Reduction::least ? ends.min : ends.max};
 }
-
-// --- files and rows
 
 Values write_table(Call& call) {
   const Argument given = call.argument(1);
@@ -175,8 +148,6 @@ Values write_table(Call& call) {
   return {path};
 }
 
-// --- expectations
-
 // In SI, in the unit of the column's name, or a quantity.
 Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Expectation::*member,
                               const char* sentence) {
@@ -187,43 +158,48 @@ Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Exp
       });
 }
 
-const Block<Expectation>& expect_block() {
-  using E = Expectation;
-  static const Block<E> block{
-      {where_key(&E::where),
-       bound_key(
-           "near", &E::near,
-           "the value wanted, with `within` or `rel`: a quantity such as \"10 MPa\", or a number in SI or "
-           "in the unit of the column's name"),
-       bound_key("within", &E::within, "greatest distance from `near`"),
-       number("rel", &E::relative, at_least(0), "greatest distance from `near`, relative to it"),
-       bound_key("at_least", &E::at_least, "lowest value accepted"),
-       bound_key("at_most", &E::at_most, "highest value accepted"),
-       text("increasing_in", &E::increasing_in,
-            "a column with which the value must rise; rows that share it are averaged"),
-       text("decreasing_in", &E::decreasing_in,
-            "a column with which the value must fall; rows that share it are averaged"),
-       flag("should_fail", &E::should_fail, "a negative control: the expectation must not hold"),
-       text("label", &E::label, "shown with the verdict")}};
-  return block;
-}
+const Block<Expectation> expect_block{
+    {where_key(&Expectation::where),
+     bound_key("near", &Expectation::near,
+               "the value wanted, with `within` or `rel`: a quantity such as \"10 MPa\", or a number in SI "
+               "or in the unit of the column's name"),
+     bound_key("within", &Expectation::within, "greatest distance from `near`"),
+     number("rel", &Expectation::relative, at_least(0), "greatest distance from `near`, relative to it"),
+     bound_key("at_least", &Expectation::at_least, "lowest value accepted"),
+     bound_key("at_most", &Expectation::at_most, "highest value accepted"),
+     text("increasing_in", &Expectation::increasing_in,
+          "a column with which the value must rise; rows that share it are averaged"),
+     text("decreasing_in", &Expectation::decreasing_in,
+          "a column with which the value must fall; rows that share it are averaged"),
+     flag("should_fail", &Expectation::should_fail, "a negative control: the expectation must not hold"),
+     text("label", &Expectation::label, "shown with the verdict")}};
 
 Values expect(Call& call) {
-  Expectation expectation = call.options(expect_block(), 2);
+  Expectation expectation = call.options(expect_block, 2);
   expectation.column = call.text(1, "column");
   RunDirectory& run =
       run_of(call, "states no expectations", "return its results, and expect it after the loop");
   const auto table = table_of_self(call);
-  return {run.expect(expectation, *table, name_of_self(call)).passed};
+  const auto* book = Argument(call.L, 1).as<Notebook>();
+  return {run.expect(expectation, *table, book != nullptr ? book->name() : table->name()).passed};
+}
+
+Function reduction(const std::string& name, Body body, const char* sentence) {
+  return {.name = name,
+          .body = body,
+          .sentence = sentence,
+          .parameters = {{"column", "string", "its name"}},
+          .returns = "number",
+          .example = "print(book:" + name + " \"mu\")",
+          .unknown_when_dry = true};
 }
 
 }  // namespace
 
 std::vector<Function> row_methods() {
-  const std::vector<Parameter> column = {{"column", "string", "its name"}};
   return {
       {.name = "rows",
-       .body = all_rows,
+       .body = [](Call& call) -> Values { return {rows_of_table(*table_of_self(call))}; },
        .sentence = "All rows as tables, numbers in SI; an empty cell is nil.",
        .returns = "table[]",
        .example = "for _, row in ipairs(book:rows()) do print(row.N, row.mu) end"},
@@ -236,7 +212,7 @@ std::vector<Function> row_methods() {
       {.name = "sorted",
        .body = sort_rows,
        .sentence = "The rows in ascending order of a column. Equal rows keep their order.",
-       .options = &sort_block(),
+       .options = &sort_block,
        .returns = "Table",
        .example = "print(book:sorted{ by=\"mu\", descending=true })",
        .unknown_when_dry = true},
@@ -248,42 +224,24 @@ std::vector<Function> row_methods() {
        .returns = "Table",
        .example = "print(book:with{ twice=function(row) return 2 * row.mu end })",
        .unknown_when_dry = true},
-      {.name = "min",
-       .body = reduced<Reduction::least>,
-       .sentence = "The least number of a column, in SI.",
-       .parameters = column,
-       .returns = "number",
-       .example = "print(book:min \"mu\")",
-       .unknown_when_dry = true},
-      {.name = "max",
-       .body = reduced<Reduction::greatest>,
-       .sentence = "The greatest number of a column, in SI.",
-       .parameters = column,
-       .returns = "number",
-       .example = "print(book:max \"mu\")",
-       .unknown_when_dry = true},
-      {.name = "sum",
-       .body = reduced<Reduction::sum>,
-       .sentence = "The sum of a column, in SI.",
-       .parameters = column,
-       .returns = "number",
-       .example = "print(book:sum \"mu\")",
-       .unknown_when_dry = true},
+      reduction("min", reduced<Reduction::least>, "The least number of a column, in SI."),
+      reduction("max", reduced<Reduction::greatest>, "The greatest number of a column, in SI."),
+      reduction("sum", reduced<Reduction::sum>, "The sum of a column, in SI."),
       {.name = "write",
        .body = write_table,
-       .sentence = "On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: "
-                   "[\"Ra [um]\"]=2.8; other numbers are in SI, and \"3 um\" is a quantity. t:write "
-                   "\"x.csv\" writes all "
-                   "rows as CSV with units in the heads; lab.table.read gives them back to the bit.",
+       .sentence =
+           "On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: [\"Ra "
+           "[um]\"]=2.8; other numbers are in SI, and \"3 um\" is a quantity. t:write \"x.csv\" writes all "
+           "rows as CSV with units in the heads; lab.table.read gives them back to the bit.",
        .parameters = {{"row", "table|string", "columns and their values, or a .csv under the run directory"}},
        .returns = "string?",
        .example = "book:write{ N=1, mu=0.4, [\"Ra [um]\"]=2.8 }"},
       {.name = "expect",
        .body = expect,
-       .sentence = "States an expectation of a column; returns whether it holds. A failed expectation "
-                   "makes the run exit 1 after everything is recorded.",
+       .sentence = "States an expectation of a column; returns whether it holds. A failed expectation makes "
+                   "the run exit 1 after everything is recorded.",
        .parameters = {{"column", "string", "the column; a unit in its name holds for the numbers given"}},
-       .options = &expect_block(),
+       .options = &expect_block,
        .returns = "boolean",
        .example = "book:expect(\"mu\", { where={N=1}, near=0.4, within=0.05 })",
        .heavy = true},

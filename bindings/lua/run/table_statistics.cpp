@@ -25,19 +25,16 @@ struct MeanKeys {
   MeanInterval interval = MeanInterval::student;
 };
 
-const Block<MeanKeys>& mean_block() {
-  using K = MeanKeys;
-  static const Block<K> block{
-      {texts_key("by", "string|string[]",
-                 "a column, or columns: one mean for the rows that are equal in them", &K::by),
-       where_key(&K::where),
-       number("confidence", &K::confidence, inside(0, 1), "the share of such intervals that hold the mean"),
-       choice("interval", &K::interval,
-              {{"student", MeanInterval::student}, {"log", MeanInterval::log_normal}},
-              "Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which "
-              "assumes that their logarithms are normal")}};
-  return block;
-}
+const Block<MeanKeys> mean_block{
+    {texts_key("by", "string|string[]", "a column, or columns: one mean for the rows that are equal in them",
+               &MeanKeys::by),
+     where_key(&MeanKeys::where),
+     number("confidence", &MeanKeys::confidence, inside(0, 1),
+            "the share of such intervals that hold the mean"),
+     choice("interval", &MeanKeys::interval,
+            {{"student", MeanInterval::student}, {"log", MeanInterval::log_normal}},
+            "Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which "
+            "assumes that their logarithms are normal")}};
 
 Cell cell_of_number(const std::optional<double>& number) {
   return number && std::isfinite(*number) ? Cell(*number) : Cell();
@@ -90,7 +87,7 @@ void warn_of_groups(Call& call, const std::string& column, const MeanKeys& keys,
 }
 
 Values mean_of_column(Call& call) {
-  const MeanKeys keys = call.options(mean_block(), 2);
+  const MeanKeys keys = call.options(mean_block, 2);
   const auto whole = table_of_self(call);
   const std::string column = call.text(1, "column");
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
@@ -134,55 +131,43 @@ void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& key
   }
   if (!value.is_table() || value.length() == 0)
     return detail::wrong_type(value, info, "a whole number of bins, or a list of their edges", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k)
-    value.element(k, [&](const Argument& edge) {
-      try {
-        if (edge.is_number())
-          keys.edges.emplace_back(edge.number());
-        else if (edge.is_text())
-          keys.edges.emplace_back(edge.text());
-        else if (!edge.is_unknown())
-          detail::wrong_type(edge, info, "an edge: a number or a quantity", problems);
-      } catch (const Error& error) {
-        problems.push_back(quoted(info.name) + ": " + error.what());
-      }
-    });
+  value.elements([&](const Argument& edge) {
+    if (edge.is_number())
+      keys.edges.emplace_back(edge.number());
+    else if (edge.is_text())
+      detail::collect(
+          problems, [&] { keys.edges.emplace_back(edge.text()); }, info.name);
+    else if (!edge.is_unknown())
+      detail::wrong_type(edge, info, "an edge: a number or a quantity", problems);
+  });
 }
 
-const Block<HistogramKeys>& column_histogram_block() {
-  using K = HistogramKeys;
-  static const Block<K> block{
-      {custom<K>(
-           "bins", "integer|number[]",
-           "how many bins of equal width, or a list of their edges: quantities, or numbers in SI or in the "
-           "unit of the column's name",
-           read_bins)
-           .defaults_to("by the rule of Freedman and Diaconis"),
-       where_key(&K::where),
-       flag("density", &K::density, "draw the share of values per width instead of their number"),
-       text("title", &K::title, "above the picture"),
-       text("x_label", &K::x_label, "instead of the column's name"),
-       text("file", &K::file, "draws it: an .svg, .png or .pdf under the run directory")}};
-  return block;
-}
+const Block<HistogramKeys> column_histogram_block{
+    {custom<HistogramKeys>("bins", "integer|number[]",
+                           "how many bins of equal width, or a list of their edges: quantities, or numbers "
+                           "in SI or in the unit of the column's name",
+                           read_bins)
+         .defaults_to("by the rule of Freedman and Diaconis"),
+     where_key(&HistogramKeys::where),
+     flag("density", &HistogramKeys::density, "draw the share of values per width instead of their number"),
+     text("title", &HistogramKeys::title, "above the picture"),
+     text("x_label", &HistogramKeys::x_label, "instead of the column's name"),
+     text("file", &HistogramKeys::file, "draws it: an .svg, .png or .pdf under the run directory")}};
 
-const RecordType<ValueHistogram>& histogram_record() {
-  using H = ValueHistogram;
-  static const RecordType<H> type{
-      "Histogram",
-      "histogram",
-      "Counts of the values of a column in bins.",
-      {{"edges", &H::edges, "of the bins in SI, one more than bins; a bin holds its lower edge"},
-       {"counts", [](const H& h) { return std::vector<std::int64_t>(h.counts.begin(), h.counts.end()); },
-        "values in each bin"},
-       {"density", &H::density, "share of the values per width of each bin"},
-       {"n", &H::values, "values in the bins"},
-       {"below", &H::below, "values below the first edge"},
-       {"above", &H::above, "values above the last edge"},
-       {"left_out", &H::left_out, "cells that are empty or no finite number"},
-       {"rule", &H::rule, "by which the bins were chosen"}}};
-  return type;
-}
+const RecordType<ValueHistogram> histogram_record{
+    "Histogram",
+    "histogram",
+    "Counts of the values of a column in bins.",
+    {{"edges", &ValueHistogram::edges, "of the bins in SI, one more than bins; a bin holds its lower edge"},
+     {"counts",
+      [](const ValueHistogram& h) { return std::vector<std::int64_t>(h.counts.begin(), h.counts.end()); },
+      "values in each bin"},
+     {"density", &ValueHistogram::density, "share of the values per width of each bin"},
+     {"n", &ValueHistogram::values, "values in the bins"},
+     {"below", &ValueHistogram::below, "values below the first edge"},
+     {"above", &ValueHistogram::above, "values above the last edge"},
+     {"left_out", &ValueHistogram::left_out, "cells that are empty or no finite number"},
+     {"rule", &ValueHistogram::rule, "by which the bins were chosen"}}};
 
 // In the unit of `column`.
 void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& column,
@@ -200,20 +185,10 @@ void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& co
   warn_of(call, draw(chart, run.path_for(*keys.file)));
 }
 
-}  // namespace
-
-void look_at_histogram(const Call& call) {
-  if (call.argument(1).is_table() && !call.argument(1).is_unknown())
-    throw Error(ErrorCode::bad_value, "histogram takes the column first",
-                "write t:histogram(\"mu\", { bins=2 })");
-}
-
-namespace {
-
 Values histogram_of_column(Call& call) {
   look_at_histogram(call);
   const std::string name = call.text(1, "column");
-  const HistogramKeys keys = call.options(column_histogram_block(), 2);
+  const HistogramKeys keys = call.options(column_histogram_block, 2);
   if (keys.file) picture_format(*keys.file);
   const auto whole = table_of_self(call);
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
@@ -227,12 +202,18 @@ Values histogram_of_column(Call& call) {
   ValueHistogram found = value_histogram(numbers.values[0], bins);
   found.left_out = numbers.left_out;
   if (keys.file) draw_histogram(call, keys, {asked.name, unit}, found);
-  return {histogram_record()(found)};
+  return {histogram_record(found)};
 }
 
 }  // namespace
 
-const RecordInfo& histogram_type() { return histogram_record(); }
+void look_at_histogram(const Call& call) {
+  if (call.argument(1).is_table() && !call.argument(1).is_unknown())
+    throw Error(ErrorCode::bad_value, "histogram takes the column first",
+                "write t:histogram(\"mu\", { bins=2 })");
+}
+
+const RecordInfo& histogram_type() { return histogram_record; }
 
 Function mean_method() {
   return {.name = "mean",
@@ -243,7 +224,7 @@ Function mean_method() {
               "the mean), low and high (the interval), n, left_out (cells that are empty or no finite "
               "number), skewness and interval (how it was computed).",
           .parameters = {{"column", "string", "the column"}},
-          .options = optional(mean_block()),
+          .options = optional(mean_block),
           .returns = "Table",
           .example = "print(book:mean(\"mu\", { by=\"D\" }))",
           .unknown_when_dry = true};
@@ -254,7 +235,7 @@ Function histogram_method() {
           .body = histogram_of_column,
           .sentence = "Counts of the values of a column in bins; `file` draws them.",
           .parameters = {{"column", "string", "the column"}},
-          .options = optional(column_histogram_block()),
+          .options = optional(column_histogram_block),
           .returns = "Histogram",
           .example = "print(book:histogram(\"mu\", { bins=2 }))",
           .heavy = true,

@@ -52,26 +52,18 @@ ShownColumns shown_columns(const Argument& given) {
     throw Error(ErrorCode::bad_value, "t:show met " + key.describe() + " = " + value.describe(),
                 "write t:show{ \"Ra [um]\", \"angle [deg]\", digits=3 }");
   };
-  for (std::int64_t k = 1; given.is_table() && k <= given.length(); ++k)
-    given.element(k, [&](const Argument& name) {
-      if (!name.is_text()) refuse(name, name);
-      shown.names.emplace_back(name.text());
-    });
-  if (given.is_table())
-    given.each([&](const Argument& key, const Argument& value) {
-      if (!key.is_text()) return;
-      const std::int64_t digits = value.is_number() ? value.integer().value_or(0) : 0;
-      if (key.text() != "digits" || digits < 1 || digits > 17) refuse(key, value);
-      shown.digits = static_cast<int>(digits);
-    });
+  if (!given.is_table()) return shown;
+  given.elements([&](const Argument& name) {
+    if (!name.is_text()) refuse(name, name);
+    shown.names.emplace_back(name.text());
+  });
+  given.each([&](const Argument& key, const Argument& value) {
+    if (!key.is_text()) return;
+    const std::int64_t digits = value.is_number() ? value.integer().value_or(0) : 0;
+    if (key.text() != "digits" || digits < 1 || digits > 17) refuse(key, value);
+    shown.digits = static_cast<int>(digits);
+  });
   return shown;
-}
-
-Values show_table(Call& call) {
-  const ShownColumns shown = shown_columns(call.argument(1));
-  const auto table = table_of_self(call);
-  print_text(call.L, table_text(columns_of(*table, shown.names), table->rows(), shown.digits));
-  return {};
 }
 
 // A directive of string.format ("%5.2f") and its unit in brackets.
@@ -148,7 +140,12 @@ Values say(Call& call) {
 
 Function show_method() {
   return {.name = "show",
-          .body = show_table,
+          .body = [](Call& call) -> Values {
+            const ShownColumns shown = shown_columns(call.argument(1));
+            const auto table = table_of_self(call);
+            print_text(call.L, table_text(columns_of(*table, shown.names), table->rows(), shown.digits));
+            return {};
+          },
           .sentence = "Prints all rows; with names, only these columns, in the units of the names.",
           .parameters = {{"columns", "table?", "names of columns, and digits=6 for the significant digits"}},
           .example = "book:show{ \"N\", \"mu [%]\", digits=3 }",

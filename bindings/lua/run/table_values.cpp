@@ -2,9 +2,6 @@
 #include "bindings/lua/run/table_values.hpp"
 
 #include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/run.hpp"
@@ -20,6 +17,15 @@ bool begins_a_number(std::string_view text) {
   if (text.front() == '+' || text.front() == '-') text.remove_prefix(1);
   if (!text.empty() && text.front() == '.') text.remove_prefix(1);
   return !text.empty() && text.front() >= '0' && text.front() <= '9';
+}
+
+void read_columns(const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
+  constexpr const char* wanted =
+      "own names with heads of the file, as in { load=\"Kraft\" }, or the heads of a file that has none in a "
+      "list";
+  if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
+  if (value.length() > 0) return read_texts(value, info, form.heads, problems);
+  read_pairs(value, info, form.names, wanted, problems);
 }
 
 }  // namespace
@@ -108,7 +114,7 @@ std::vector<Entry> entries_of(const Call& call, const Argument& given, const std
     row.push_back(std::move(entry));
   });
   // Lua's key order varies; places of new columns must not.
-  std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  std::ranges::sort(row, {}, &Entry::column);
   return row;
 }
 
@@ -137,13 +143,12 @@ void read_filter(const Argument& value, const OptionInfo& info, TableFilter& fil
                            "; give a number, a string, a boolean, or a list of them");
     };
     if (wanted.is_table())
-      for (std::int64_t k = 1; k <= wanted.length(); ++k) wanted.element(k, take);
+      wanted.elements(take);
     else
       take(wanted);
     conditions.push_back(std::move(condition));
   });
-  std::sort(conditions.begin(), conditions.end(),
-            [](const Condition& a, const Condition& b) { return a.column < b.column; });
+  std::ranges::sort(conditions, {}, &Condition::column);
   filter = TableFilter(std::move(conditions));
 }
 
@@ -159,19 +164,6 @@ void read_pairs(const Argument& value, const OptionInfo& info,
   std::ranges::sort(pairs);
 }
 
-namespace {
-
-void read_columns(const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
-  constexpr const char* wanted =
-      "own names with heads of the file, as in { load=\"Kraft\" }, or the heads of a file that has none in a "
-      "list";
-  if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
-  if (value.length() > 0) return read_texts(value, info, form.heads, problems);
-  read_pairs(value, info, form.names, wanted, problems);
-}
-
-}  // namespace
-
 void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::string>& texts,
                 Problems& problems) {
   const auto take = [&](const Argument& part) {
@@ -183,22 +175,19 @@ void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::
   if (value.is_text()) return take(value);
   if (!value.is_table() || value.length() == 0)
     return detail::wrong_type(value, info, "a column's name or a list of them", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+  value.elements(take);
 }
 
 void read_expected(const Argument& value, const std::string& name, std::optional<ExpectedValue>& expected,
                    Problems& problems) {
   if (value.is_nil() || value.is_unknown()) return;
-  try {
-    if (value.is_number())
-      expected = value.number();
-    else if (value.is_text())
-      expected = ExpectedValue(value.text());
-    else
-      problems.push_back(quoted(name) + " is " + value.describe() + "; give a number or a quantity");
-  } catch (const Error& error) {
-    problems.push_back(quoted(name) + ": " + error.what());
-  }
+  if (value.is_number())
+    expected = value.number();
+  else if (value.is_text())
+    detail::collect(
+        problems, [&] { expected = ExpectedValue(value.text()); }, name);
+  else
+    detail::wrong_type(value, name, "a number or a quantity", problems);
 }
 
 const std::vector<Option<TableForm>>& table_form_keys() {
@@ -208,9 +197,7 @@ const std::vector<Option<TableForm>>& table_form_keys() {
           "columns", "table",
           "own names of columns, each with its head in the file, as in { load=\"Kraft\" }; where two heads "
           "differ in their units alone, with the unit. Or a list: the heads of a file that has none",
-          [](const Argument& value, const OptionInfo& info, F& form, Problems& problems) {
-            read_columns(value, info, form, problems);
-          }),
+          read_columns),
       integer("skip", &F::skip, at_least(0), "lines above the heads that are left out"),
       custom<F>("unit", "table",
                 "units of columns that the file says none for, or others than it says: { load=\"kN\" }; "

@@ -48,10 +48,7 @@ void refuse_numbers_without_unit(const std::vector<Entry>& row, const Table& tab
 void read_filter(const Argument& value, const OptionInfo& info, TableFilter& filter, Problems& problems);
 template <class O>
 Option<O> where_key(TableFilter O::*member) {
-  return custom<O>("where", "table", "only rows in which these columns hold these values",
-                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-                     read_filter(value, info, options.*member, problems);
-                   });
+  return custom("where", "table", "only rows in which these columns hold these values", member, read_filter);
 }
 
 // Keys for lab.table.read and lab.protocol.read.
@@ -67,10 +64,7 @@ void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::
                 Problems& problems);
 template <class O, class M>
 Option<O> texts_key(const char* name, const char* type, const char* sentence, M O::*member) {
-  return custom<O>(name, type, sentence,
-                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-                     read_texts(value, info, options.*member, problems);
-                   });
+  return custom(name, type, sentence, member, read_texts);
 }
 
 // A number or a quantity.

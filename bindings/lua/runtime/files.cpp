@@ -5,13 +5,9 @@
 
 #include <filesystem>
 #include <set>
-#include <string>
 #include <string_view>
 #include <system_error>
 
-#include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/registry/session.hpp"
-#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
@@ -70,16 +66,11 @@ std::optional<double> read_unit(const Argument& value, const OptionInfo& info, P
   return {};
 }
 
-std::string format_names() {
-  std::vector<std::string> names;
-  for (const Format* format : formats()) names.push_back("\"" + std::string(format->name) + "\"");
-  return joined(names);
-}
-
-std::string names_of_formats_with_channels() {
+std::string format_names(bool with_channels) {
   std::vector<std::string> names;
   for (const Format* format : formats())
-    if (format->read_channel != nullptr) names.push_back("\"" + std::string(format->name) + "\"");
+    if (!with_channels || format->read_channel != nullptr)
+      names.push_back("\"" + std::string(format->name) + "\"");
   return joined(names);
 }
 

@@ -59,26 +59,21 @@ Option<O> unit_xy_key(std::optional<double> O::*member) {
                        "that do not say it, e.g. \"mm\"");
 }
 // "npy", "x3p" ...
-std::string format_names();
-std::string names_of_formats_with_channels();
+std::string format_names(bool with_channels = false);
 template <class O>
 Option<O> format_key(std::string O::*member) {
   return text("format", member, "read as this format whatever the file looks like: " + format_names());
 }
 template <class O>
 Option<O> channel_key(std::string O::*member) {
-  return text(
-      "channel", member,
-      "which of several maps in a file of " + names_of_formats_with_channels() + ", by its name or number");
+  return text("channel", member,
+              "which of several maps in a file of " + format_names(true) + ", by its name or number");
 }
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
 template <class O>
 Option<O> fill_key(HoleFill O::*member) {
-  return custom<O>("fill", "\"interpolate\"|a length",
-                   "value of unmeasured points; without it they stay missing",
-                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
-                     read_fill(value, info, options.*member, problems);
-                   });
+  return custom("fill", "\"interpolate\"|a length",
+                "value of unmeasured points; without it they stay missing", member, read_fill);
 }
 
 }  // namespace asperity::lua

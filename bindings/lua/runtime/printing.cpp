@@ -82,6 +82,13 @@ std::string table_line(lua_State* L, int index, int depth) {
   return parts.empty() ? "{}" : "{ " + line + " }" + behind;
 }
 
+bool is_plain_table(lua_State* L, int index) {
+  if (lua_type(L, index) != LUA_TTABLE) return false;
+  if (luaL_getmetafield(L, index, "__tostring") == LUA_TNIL) return true;
+  lua_pop(L, 1);
+  return false;
+}
+
 std::string line_of(lua_State* L, int index, int depth) {
   const Argument value(L, index);
   if (value.is_text()) {
@@ -101,21 +108,7 @@ std::string line_of(lua_State* L, int index, int depth) {
     return "a function";
   }
   const Argument::StackGuard guard(L);
-  const bool plain = value.is_table() && luaL_getmetafield(L, value.index(), "__tostring") == LUA_TNIL;
-  return plain ? table_line(L, value.index(), depth) : told(L, value.index());
-}
-
-}  // namespace
-
-std::string shown_line(lua_State* L, int index) { return line_of(L, lua_absindex(L, index), 0); }
-
-namespace {
-
-bool is_plain_table(lua_State* L, int index) {
-  if (lua_type(L, index) != LUA_TTABLE) return false;
-  if (luaL_getmetafield(L, index, "__tostring") == LUA_TNIL) return true;
-  lua_pop(L, 1);
-  return false;
+  return is_plain_table(L, value.index()) ? table_line(L, value.index(), depth) : told(L, value.index());
 }
 
 bool write(std::FILE* output, std::string_view text) {
@@ -123,6 +116,8 @@ bool write(std::FILE* output, std::string_view text) {
 }
 
 }  // namespace
+
+std::string shown_line(lua_State* L, int index) { return line_of(L, lua_absindex(L, index), 0); }
 
 int print_values(lua_State* L) {
   std::FILE* output = Session::of(L).output;

@@ -10,13 +10,12 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <optional>
 
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/embedded.hpp"
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
@@ -26,11 +25,6 @@
 namespace asperity::lua {
 
 namespace {
-
-int open_library(lua_State* L) {
-  push_library(L);
-  return 1;
-}
 
 // A pipe's writer may never come.
 void refuse_pipe(const std::string& name, const std::string& place) {
@@ -132,32 +126,22 @@ int input_path(lua_State* L) {
 }
 
 // host.unknown_global(name, _G) -> message
-int unknown_global_body(lua_State* L) {
-  std::string message;
-  try {
-    const Argument name(L, 1);
+int unknown_global(lua_State* L) {
+  const int results = give_text(L, [L](const Session& session, const std::string& given) {
+    const std::string name = Argument(L, 1).is_text() ? given.substr(0, 60) : "?";
+    if (session.left_behind != nullptr && session.left_behind->contains(name))
+      return "the global " + quoted(name) + " stays with the script: " + session.left_behind->at(name) +
+             "; make it inside `run`, or use it on the rows that come back";
     std::vector<std::string> names;
     Argument(L, 2).each([&](const Argument& key, const Argument&) {
       if (key.is_text()) names.emplace_back(key.text());
     });
-    const std::string shown(name.is_text() ? name.text().substr(0, 60) : std::string_view("?"));
-    message = "the global " + quoted(shown) + " was never set";
-    message += shown == "lab" ? "; a script begins with local lab = require \"asperity\""
-                              : did_you_mean(shown, names);
-    if (const auto* stayed = Session::of(L).left_behind; stayed != nullptr && stayed->contains(shown))
-      message = "the global " + quoted(shown) + " stays with the script: " + stayed->at(shown) +
-                "; make it inside `run`, or use it on the rows that come back";
-  } catch (const std::exception& error) {
-    message = error.what();
-  }
-  auto action = [&](lua_State* state) {
-    lua_pushlstring(state, message.data(), message.size());
-    return 1;
-  };
-  return protect(L, 0, 1, action) == LUA_OK ? 1 : -1;
+    return "the global " + quoted(name) + " was never set" +
+           (name == "lab" ? "; a script begins with local lab = require \"asperity\""
+                          : did_you_mean(name, names));
+  });
+  return results < 0 ? lua_error(L) : 1;
 }
-
-int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
 // host.mistaken(message) -> true and a placeholder after a noted mistake, else false
 int mistaken(lua_State* L) {
@@ -176,11 +160,9 @@ const char* exit_body(lua_State* L, int code) {
     return "this function cannot end the run: other ranks wait for its result; raise an error in it";
   try {
     if (session.exit_hook) session.exit_hook(code);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::interrupted) return "interrupted";
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    if (code == 0) code = 1;
   } catch (const std::exception& error) {
+    const auto* own = dynamic_cast<const Error*>(&error);
+    if (own != nullptr && own->code() == ErrorCode::interrupted) return "interrupted";
     std::fprintf(stderr, "asperity: %s\n", error.what());
     if (code == 0) code = 1;
   }
@@ -224,7 +206,8 @@ int set_up(lua_State* L) {
   lua_call(L, 2, 0);
   lua_pop(L, 1);
 
-  luaL_requiref(L, "asperity", open_library, 0);
+  luaL_requiref(
+      L, "asperity", [](lua_State* s) { return push_library(s), 1; }, 0);
   lua_pop(L, 1);
   preload_embedded_scripts(L);
 
@@ -256,6 +239,61 @@ int set_up(lua_State* L) {
   // The next cycle begins at twice the present size.
   lua_gc(L, LUA_GCSTEP, -lua_gc(L, LUA_GCCOUNT));
   return 0;
+}
+
+const char* stop_sentence(StopReason reason) {
+  return reason == StopReason::none         ? nullptr
+         : reason == StopReason::interrupt  ? "interrupted"
+         : reason == StopReason::time_limit ? "the time limit of the run is reached"
+                                            : "the memory limit of the run is reached";
+}
+
+// A second stop would prevent the traceback.
+bool calls_the_handler(lua_State* L, lua_Debug* frame) {
+  if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
+  lua_getinfo(L, "f", frame);
+  const bool same = lua_tocfunction(L, -1) == traceback_handler;
+  lua_pop(L, 1);
+  return same;
+}
+
+void stop_hook(lua_State* L, lua_Debug* frame) {
+  const char* sentence = stop_sentence(stop_flag().reason());
+  if (sentence == nullptr || calls_the_handler(L, frame)) return;
+  // The running line, or the caller's line.
+  lua_Debug running;
+  for (int level = 0; level < 16 && lua_getstack(L, level, &running) != 0; ++level) {
+    lua_getinfo(L, "Sl", &running);
+    if (running.currentline <= 0) continue;
+    lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
+    lua_error(L);
+  }
+  // The script has ended, perhaps by this stop: an error would lose its message.
+}
+
+// Whether the first line of a message has a place such as "script.lua:3:".
+bool names_a_line(const char* message) {
+  for (const char* at = message; *at != '\0' && *at != '\n'; ++at) {
+    if (*at != ':') continue;
+    const std::size_t digits = std::strspn(at + 1, "0123456789");
+    if (digits > 0 && at[1 + digits] == ':') return true;
+  }
+  return false;
+}
+
+// Lua's own C functions, and error values other than text, name no line. A script's error("text", 0) stays as
+// written.
+void add_running_line(lua_State* L, bool text) {
+  lua_Debug frame;
+  if (text && lua_getstack(L, 1, &frame) != 0 && lua_getinfo(L, "Sn", &frame) != 0 && *frame.what == 'C' &&
+      frame.name != nullptr && std::strcmp(frame.name, "error") == 0)
+    return;
+  for (int level = 1; !names_a_line(lua_tostring(L, 1)) && lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline <= 0 || std::strcmp(frame.source, "=sandbox") == 0) continue;
+    lua_pushfstring(L, "%s:%d: %s", frame.short_src, frame.currentline, lua_tostring(L, 1));
+    lua_replace(L, 1);
+  }
 }
 
 }  // namespace
@@ -291,45 +329,6 @@ State make_state(Session& session, const std::string& script_folder) {
   return state;
 }
 
-namespace {
-const char* stop_sentence(StopReason reason) {
-  switch (reason) {
-    case StopReason::none:
-      break;
-    case StopReason::interrupt:
-      return "interrupted";
-    case StopReason::time_limit:
-      return "the time limit of the run is reached";
-    case StopReason::memory_limit:
-      return "the memory limit of the run is reached";
-  }
-  return nullptr;
-}
-
-// A second stop would prevent the traceback.
-bool calls_the_handler(lua_State* L, lua_Debug* frame) {
-  if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
-  lua_getinfo(L, "f", frame);
-  const bool same = lua_tocfunction(L, -1) == traceback_handler;
-  lua_pop(L, 1);
-  return same;
-}
-
-void stop_hook(lua_State* L, lua_Debug* frame) {
-  const char* sentence = stop_sentence(stop_flag().reason());
-  if (sentence == nullptr || calls_the_handler(L, frame)) return;
-  // The running line, or the caller's line.
-  lua_Debug running;
-  for (int level = 0; level < 16 && lua_getstack(L, level, &running) != 0; ++level) {
-    lua_getinfo(L, "Sl", &running);
-    if (running.currentline <= 0) continue;
-    lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
-    lua_error(L);
-  }
-  // The script has ended, perhaps by this stop: an error would lose its message.
-}
-}  // namespace
-
 void interrupt(lua_State* L) {
   lua_sethook(L, stop_hook, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
 }
@@ -356,32 +355,24 @@ std::string error_text(lua_State* L, int index) {
   return text;
 }
 
-namespace {
-// Whether the first line of a message has a place such as "script.lua:3:".
-bool names_a_line(const char* message) {
-  for (const char* at = message; *at != '\0' && *at != '\n'; ++at) {
-    if (*at != ':') continue;
-    const std::size_t digits = std::strspn(at + 1, "0123456789");
-    if (digits > 0 && at[1 + digits] == ':') return true;
-  }
-  return false;
+std::optional<std::string> failure_of_call(lua_State* L, int arguments, int results) {
+  if (lua_pcall(L, arguments, results, 0) == LUA_OK) return {};
+  stop_flag().check();
+  return error_text(L, -1);
 }
 
-// Lua's own C functions, and error values other than text, name no line. A script's error("text", 0) stays as
-// written.
-void add_running_line(lua_State* L, bool text) {
-  lua_Debug frame;
-  if (text && lua_getstack(L, 1, &frame) != 0 && lua_getinfo(L, "Sn", &frame) != 0 && *frame.what == 'C' &&
-      frame.name != nullptr && std::strcmp(frame.name, "error") == 0)
-    return;
-  for (int level = 1; !names_a_line(lua_tostring(L, 1)) && lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline <= 0 || std::strcmp(frame.source, "=sandbox") == 0) continue;
-    lua_pushfstring(L, "%s:%d: %s", frame.short_src, frame.currentline, lua_tostring(L, 1));
-    lua_replace(L, 1);
-  }
+std::optional<std::string> failure_of_call(const Argument& function, const Values& arguments) {
+  lua_State* L = function.state();
+  lua_pushvalue(L, function.index());
+  const int count = static_cast<int>(arguments.size());
+  auto push_all = [&](lua_State* s) {
+    for (const Value& argument : arguments) push(s, argument);
+    return count;
+  };
+  if (protect(L, 0, count, push_all) == LUA_OK) return failure_of_call(L, count, 1);
+  stop_flag().check();
+  return error_text(L, -1);
 }
-}  // namespace
 
 int traceback_handler(lua_State* L) {
   const bool text = lua_type(L, 1) == LUA_TSTRING;

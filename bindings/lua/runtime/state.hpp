@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,8 @@
 #include "bindings/lua/runtime/state_heap.hpp"
 
 namespace asperity::lua {
+
+class Argument;
 
 struct StateCloser {
   void operator()(lua_State* L) const;
@@ -35,6 +38,12 @@ void watch_for_stops(lua_State* L);
 
 // Other values as by tostring.
 std::string error_text(lua_State* L, int index);
+
+// Calls the function below the top `arguments` values. Returns the message of a failure; throws
+// Error{interrupted} after a stop.
+std::optional<std::string> failure_of_call(lua_State* L, int arguments, int results);
+// The same with these arguments and one result.
+std::optional<std::string> failure_of_call(const Argument& function, const Values& arguments);
 
 // More lines only for ledgers, plans and long lists. Never raises.
 std::string shown_line(lua_State* L, int index);

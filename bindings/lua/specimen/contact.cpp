@@ -16,8 +16,6 @@ namespace asperity::lua {
 
 namespace {
 
-Values make_contact(Call& call) { return {object(SpecimenPair(read_scene(call)))}; }
-
 constexpr struct {
   const char* key;
   PressBy by;
@@ -37,65 +35,8 @@ constexpr struct {
      between(0, 1)},
 };
 
-}  // namespace
-
-const Block<PressKeys>& press_block() {
-  static const Block<PressKeys> block = [] {
-    std::vector<Option<PressKeys>> options;
-    for (const auto& entry : press_keys) {
-      auto option = custom<PressKeys>(
-          entry.key, entry.type(), entry.sentence,
-          [entry](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
-            ++keys.given;
-            const auto v = detail::read_quantity(value, info, entry.range, problems);
-            if (!v) return;
-            keys.by = entry.by;
-            keys.value = *v;
-          });
-      option.info.dimension = entry.dimension;
-      option.info.range_text = entry.range.text(entry.dimension);
-      option.show = [entry](const PressKeys& keys) {
-        return keys.given == 1 && keys.by == entry.by ? format_exact(keys.value) : std::string();
-      };
-      options.push_back(std::move(option));
-    }
-    options.push_back(quantity("dwell", &PressRequest::dwell, dimension::time, at_least(0),
-                               "duration of the load; for creep alone"));
-    // Dimension of the controlled quantity, which precedes `preload` in the block.
-    auto preload = custom<PressKeys>(
-        "preload", "number|string|(number|string)[]",
-        "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
-        "there; or a list of values gone to in turn",
-        [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
-          OptionInfo same = info;
-          for (const auto& entry : press_keys)
-            if (entry.by == keys.by) same.dimension = entry.dimension;
-          const auto read_one = [&](const Argument& one) {
-            if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
-          };
-          if (!value.is_table()) return read_one(value);
-          value.elements(read_one);
-        });
-    preload.show = [](const PressKeys& keys) {
-      std::vector<std::string> turns;
-      for (const double turn : keys.preload) turns.push_back(format_exact(turn));
-      return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
-    };
-    options.push_back(std::move(preload));
-    return Block<PressKeys>(std::move(options), [](PressKeys& keys, Problems& problems) {
-      if (keys.given != 1)
-        problems.push_back(
-            "give exactly one of `pressure`, `load`, `approach`, `indentation` and `flatten`; " +
-            std::to_string(keys.given) + " are given");
-    });
-  }();
-  return block;
-}
-
-namespace {
-
 Values press(Call& call) {
-  const PressKeys request = call.options(press_block());
+  const PressKeys request = call.options(press_block);
   return {object(call.self<SpecimenPair>().press(request, call.session().monitor()))};
 }
 
@@ -156,51 +97,13 @@ Values sweep(Call& call) {
                    [pair](Call& step, const auto& turn) { return table_of_states(step, pair, turn); }}};
 }
 
-}  // namespace
-
-std::vector<PressRequest> requests_of(const Call& call, const Function& function) {
-  const Argument table = call.argument(1);
-  bool known = table.is_table() && !table.is_unknown();
-  const auto look = [&](const Argument&, const Argument& value) {
-    known = known && !holds_unknown(value, 1);
-  };
-  if (known) table.each(look);
-  if (!known) return {};
-  if (function.options == &press_block()) return {press_block().read(table, call.function_name())};
-  if (function.options == &sweep_block) return sweep_block.read(table, call.function_name()).requests;
-  return {};
-}
-
-void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
-                  const PressRequest& request, const asperity::State& state) {
-  const Object self{&class_of<SpecimenPair>(), pair, false};
-  record_call(session, "contact:press", &self, press_block().resolved({request, 1}),
-              {object(asperity::State(state))});
-}
-
-const Block<PlaceKeys>& place_block() {
-  static const Block<PlaceKeys> block{
-      {integer("seed", &PlaceKeys::seed, at_least(0), "of the turn and the shift that are drawn")
-           .required()}};
-  return block;
-}
-
-const Block<ShiftKeys>& shift_block() {
-  static const Block<ShiftKeys> block{
-      {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
-       quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
-  return block;
-}
-
-namespace {
-
 void warn_of_flat(const Call& call, const char* done) {
   if (call.self<SpecimenPair>().upper_is_flat())
     call.warn(std::string(done) + " a flat upper body changes nothing: every placement is the same contact");
 }
 
 Values place(Call& call) {
-  call.self<SpecimenPair>().place(call.options(place_block()).seed);
+  call.self<SpecimenPair>().place(call.options(place_block).seed);
   warn_of_flat(call, "placing");
   return {};
 }
@@ -212,7 +115,7 @@ Values rotate(Call& call) {
 }
 
 Values shift(Call& call) {
-  const ShiftKeys keys = call.options(shift_block());
+  const ShiftKeys keys = call.options(shift_block);
   call.self<SpecimenPair>().shift(keys.x, keys.y);
   return {};
 }
@@ -234,18 +137,87 @@ Values close(Call& call) {
   return {};
 }
 
-std::string describe_contact(const SpecimenPair& pair) {
-  return "contact: " + pair.plan().title + (pair.under_load() ? ", under load" : "");
-}
-std::string digest_of_contact(const SpecimenPair& pair) {
-  return pair.lower().digest() + "+" + (pair.upper_is_flat() ? std::string("flat") : pair.upper().digest());
+}  // namespace
+
+const Block<PressKeys> press_block = [] {
+  std::vector<Option<PressKeys>> options;
+  for (const auto& entry : press_keys) {
+    auto option = custom<PressKeys>(
+        entry.key, entry.type(), entry.sentence,
+        [entry](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+          ++keys.given;
+          const auto v = detail::read_quantity(value, info, entry.range, problems);
+          if (!v) return;
+          keys.by = entry.by;
+          keys.value = *v;
+        });
+    option.info.dimension = entry.dimension;
+    option.info.range_text = entry.range.text(entry.dimension);
+    option.show = [entry](const PressKeys& keys) {
+      return keys.given == 1 && keys.by == entry.by ? format_exact(keys.value) : std::string();
+    };
+    options.push_back(std::move(option));
+  }
+  options.push_back(quantity("dwell", &PressRequest::dwell, dimension::time, at_least(0),
+                             "duration of the load; for creep alone"));
+  // Dimension of the controlled quantity, which precedes `preload` in the block.
+  auto preload = custom<PressKeys>(
+      "preload", "number|string|(number|string)[]",
+      "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
+      "there; or a list of values gone to in turn",
+      [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+        OptionInfo same = info;
+        for (const auto& entry : press_keys)
+          if (entry.by == keys.by) same.dimension = entry.dimension;
+        const auto read_one = [&](const Argument& one) {
+          if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
+        };
+        if (!value.is_table()) return read_one(value);
+        value.elements(read_one);
+      });
+  preload.show = [](const PressKeys& keys) {
+    std::vector<std::string> turns;
+    for (const double turn : keys.preload) turns.push_back(format_exact(turn));
+    return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
+  };
+  options.push_back(std::move(preload));
+  return Block<PressKeys>(std::move(options), [](PressKeys& keys, Problems& problems) {
+    if (keys.given != 1)
+      problems.push_back("give exactly one of `pressure`, `load`, `approach`, `indentation` and `flatten`; " +
+                         std::to_string(keys.given) + " are given");
+  });
+}();
+
+std::vector<PressRequest> requests_of(const Call& call, const Function& function) {
+  const Argument table = call.argument(1);
+  bool known = table.is_table() && !table.is_unknown();
+  const auto look = [&](const Argument&, const Argument& value) {
+    known = known && !holds_unknown(value, 1);
+  };
+  if (known) table.each(look);
+  if (!known) return {};
+  if (function.options == &press_block) return {press_block.read(table, call.function_name())};
+  if (function.options == &sweep_block) return sweep_block.read(table, call.function_name()).requests;
+  return {};
 }
 
-}  // namespace
+void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
+                  const PressRequest& request, const asperity::State& state) {
+  const Object self{&class_of<SpecimenPair>(), pair, false};
+  record_call(session, "contact:press", &self, press_block.resolved({request, 1}),
+              {object(asperity::State(state))});
+}
+
+const Block<PlaceKeys> place_block{
+    {integer("seed", &PlaceKeys::seed, at_least(0), "of the turn and the shift that are drawn").required()}};
+
+const Block<ShiftKeys> shift_block{
+    {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
+     quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
 
 Function contact_function() {
   return {.name = "contact",
-          .body = make_contact,
+          .body = [](Call& call) -> Values { return {object(SpecimenPair(read_scene(call)))}; },
           .sentence = "Puts two bodies on the bench. Only the effects that are named are computed.",
           .options = &scene_keys(),
           .returns = "Contact",
@@ -254,20 +226,23 @@ Function contact_function() {
 }
 
 // data table
-template <>
-Class make_class<SpecimenPair>() {
+Class make_class(For<SpecimenPair>) {
   Class c{"Contact", "a contact",
           "Two specimens on the bench, the placement of the upper on the lower, and the scene: the only "
           "value that changes."};
   c.shareable = false;
-  c.describe = text_of<describe_contact>;
-  c.digest = text_of<digest_of_contact>;
+  c.describe = from_value([](const SpecimenPair& pair) -> std::string {
+    return "contact: " + pair.plan().title + (pair.under_load() ? ", under load" : "");
+  });
+  c.digest = from_value([](const SpecimenPair& pair) -> std::string {
+    return pair.lower().digest() + "+" + (pair.upper_is_flat() ? std::string("flat") : pair.upper().digest());
+  });
   c.closing = close_states;
   c.methods = {
       {.name = "press",
        .body = press,
        .sentence = "The state under a load, given in one of five ways.",
-       .options = &press_block(),
+       .options = &press_block,
        .returns = "State",
        .example = "local st = c:press{ pressure=\"10 MPa\" }",
        .heavy = true},
@@ -275,8 +250,8 @@ Class make_class<SpecimenPair>() {
        .body = sweep,
        .sentence =
            "One state after another along a list of loads, up or down. Bodies that attract each other are "
-           "followed on their branch: each state is drawn from the turns of the list before it. With "
-           ":table{ \"pressure [MPa]\", \"area_fraction [%]\" } behind it, all states become a Table.",
+           "followed on their branch: each state is drawn from the turns of the list before it. With :table{ "
+           "\"pressure [MPa]\", \"area_fraction [%]\" } behind it, all states become a Table.",
        .options = &sweep_block,
        .returns = "iterator<State>",
        .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end",
@@ -292,7 +267,7 @@ Class make_class<SpecimenPair>() {
        .sentence =
            "Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a periodic "
            "tile, shifted by whole cells, as drawn from the seed; heights are never resampled.",
-       .options = &place_block(),
+       .options = &place_block,
        .example = "c:place{ seed=2 }"},
       {.name = "rotate",
        .body = rotate,
@@ -304,16 +279,15 @@ Class make_class<SpecimenPair>() {
       {.name = "shift",
        .body = shift,
        .sentence = "Shifts the upper body by whole cells on a periodic tile.",
-       .options = &shift_block(),
+       .options = &shift_block,
        .example = "c:shift{ x=\"10 um\" }"},
       {.name = "log",
        .body = log,
        .sentence =
-           "Writes all events as a press log, which lab.protocol.read reads back: turns, loads, dwells, "
-           "the times of a protocol that has them. Further columns, which the reader skips, hold the "
-           "results of each press: result load or pressure, approach, area_fraction, peak_pressure. If "
-           "presses were requested in several ways, the log gives the resulting pressure of all. Returns "
-           "the file.",
+           "Writes all events as a press log, which lab.protocol.read reads back: turns, loads, dwells, the "
+           "times of a protocol that has them. Further columns, which the reader skips, hold the results of "
+           "each press: result load or pressure, approach, area_fraction, peak_pressure. If presses were "
+           "requested in several ways, the log gives the resulting pressure of all. Returns the file.",
        .parameters = {{"path", "string", "under the run directory"}},
        .returns = "string",
        .example = "c:log \"done.csv\"",
@@ -325,15 +299,14 @@ Class make_class<SpecimenPair>() {
        .example = "local before = c:copy()"},
       {.name = "explain",
        .body = method([](const SpecimenPair& pair, Call& call) {
-         return call.given(1) ? pair.plan_of(call.options(press_block())) : pair.plan();
+         return call.given(1) ? pair.plan_of(call.options(press_block)) : pair.plan();
        }),
-       .sentence =
-           "Plan of a press: the computed terms, the terms that are off, and the expected transforms, "
-           "memory and time. Given the keys of contact:press, one trial of this press counts its "
-           "transforms: exactly on up to 128 x 128 cells, within a factor of two in nine presses of ten on "
-           "more, from a trial on about 128 x 128. Without keys, they are a rough guess for a press by "
-           "pressure. Presses nothing.",
-       .options = optional(press_block()),
+       .sentence = "Plan of a press: the computed terms, the terms that are off, and the expected "
+                   "transforms, memory and time. Given the keys of contact:press, one trial of this press "
+                   "counts its transforms: exactly on up to 128 x 128 cells, within a factor of two in nine "
+                   "presses of ten on more, from a trial on about 128 x 128. Without keys, they are a rough "
+                   "guess for a press by pressure. Presses nothing.",
+       .options = optional(press_block),
        .returns = "Plan",
        .example = "print(c:explain{ approach=\"20 nm\" })"},
       {.name = "lower",
@@ -349,8 +322,8 @@ Class make_class<SpecimenPair>() {
       {.name = "close",
        .body = close,
        .sentence = "Frees the memory of the contact and all its states now instead of at Lua's next "
-                   "collection. A state retains every value already read, and its load, approach, area, "
-                   "peak pressure, certificate and digest; reading another value is an error.",
+                   "collection. A state retains every value already read, and its load, approach, area, peak "
+                   "pressure, certificate and digest; reading another value is an error.",
        .example = "c:close()"},
   };
   return c;

@@ -16,14 +16,13 @@
 
 namespace asperity::lua {
 
-template <>
-Class make_class<SpecimenPair>();
+Class make_class(For<SpecimenPair>);
 
 // Options of c:press, c:place and c:shift, also in protocol events.
 struct PressKeys : PressRequest {
   int given = 0;  // given controls; exactly one
 };
-const Block<PressKeys>& press_block();
+extern const Block<PressKeys> press_block;
 // The presses of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws as the
 // call.
 std::vector<PressRequest> requests_of(const Call& call, const Function& function);
@@ -33,18 +32,17 @@ void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& p
 struct PlaceKeys {
   std::uint64_t seed = 1;
 };
-const Block<PlaceKeys>& place_block();
+extern const Block<PlaceKeys> place_block;
 struct ShiftKeys {
   double x = 0, y = 0;
 };
-const Block<ShiftKeys>& shift_block();
+extern const Block<ShiftKeys> shift_block;
 
 Function contact_function();
 
 // Partial slip under a tangential force below sliding.
 Function shear_method();
-template <>
-Class make_class<PartialSlip>();
+Class make_class(For<PartialSlip>);
 
 // One Error reports all problems.
 Scene read_scene(Call& call);

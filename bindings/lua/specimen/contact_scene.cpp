@@ -36,11 +36,7 @@ class ElasticityBlock final : public BlockInfo {
       }
   }
 
-  std::vector<const OptionInfo*> options() const override {
-    std::vector<const OptionInfo*> all;
-    for (const OptionInfo& info : infos_) all.push_back(&info);
-    return all;
-  }
+  std::vector<const OptionInfo*> options() const override { return pointers_to(infos_); }
   Elasticity read(const Argument& table, const std::string& caller) const {
     const ElasticModel* model = nullptr;
     std::any options;
@@ -114,14 +110,9 @@ struct AccuracyKeys : Accuracy {
 };
 
 std::string_view estimate_text(Accuracy::Estimate estimate) {
-  switch (estimate) {
-    case Accuracy::Estimate::coarser:
-      return "true";
-    case Accuracy::Estimate::finer:
-      return "\"finer\"";
-    default:
-      return "false";
-  }
+  return estimate == Accuracy::Estimate::none      ? "false"
+         : estimate == Accuracy::Estimate::coarser ? "true"
+                                                   : "\"finer\"";
 }
 
 void read_estimate(const Argument& value, const OptionInfo& info, AccuracyKeys& keys, Problems& problems) {
@@ -221,17 +212,8 @@ struct SceneKeys {
   AccuracyKeys accuracy;
 };
 
-template <class Act>
-void collect(Problems& problems, Act act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
-}
-
-void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems) {
-  collect(problems, [&] {
+void read_elasticity(const Argument& value, const OptionInfo&, SceneKeys& keys, Problems& problems) {
+  detail::collect(problems, [&] {
     if (value.is_table()) {
       keys.elasticity = elasticity_block().read(value, "`effects.elasticity`");
     } else if (value.is_text()) {
@@ -255,7 +237,7 @@ Option<SceneKeys> effect_option(const Effect& effect) {
       [&](const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
         if (!value.is_table())
           return detail::wrong_type(value, info, "a table of named keys, {} for its defaults", problems);
-        collect(problems, [&] { keys.effects.set(effect, block.read(value, quoted(info.name))); });
+        detail::collect(problems, [&] { keys.effects.set(effect, block.read(value, quoted(info.name))); });
       });
   option.info.inner = &block;
   return option;
@@ -267,11 +249,8 @@ const std::vector<Option<SceneKeys>>& effect_options() {
     std::string type;
     for (const ElasticModel* model : elastic_models())
       if (!needs_options(*model)) type += "\"" + std::string(model->name) + "\"|";
-    Option<K> elasticity =
-        custom<K>(std::string(elasticity_effect), type + "table", "elastic deformation of the bodies",
-                  [](const Argument& value, const OptionInfo&, K& keys, Problems& problems) {
-                    read_elasticity(value, keys, problems);
-                  });
+    Option<K> elasticity = custom<K>(std::string(elasticity_effect), type + "table",
+                                     "elastic deformation of the bodies", read_elasticity);
     elasticity.info.inner = &elasticity_block();
     elasticity.info.required = true;
     std::vector<Option<K>> all{std::move(elasticity)};
@@ -282,29 +261,13 @@ const std::vector<Option<SceneKeys>>& effect_options() {
 }
 const Block<SceneKeys> effects_block{effect_options()};
 
-}  // namespace
-
-std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems) {
-  std::vector<std::string> names;
-  value.each([&](const Argument& key, const Argument&) {
-    if (key.is_text())
-      names.emplace_back(key.text());
-    else
-      problems.push_back("`effects` holds " + key.describe() + " as a key" + hint);
-  });
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-namespace {
-
 // Effects missing from this build are refused.
 void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);
   const std::vector<std::string> names = effects_named(value, "; write { elasticity=\"box\" }", problems);
   for (const std::string& name : names) {
-    collect(problems, [&] {
+    detail::collect(problems, [&] {
       (void)require_effect(name);
       for (const Option<SceneKeys>& option : effect_options())
         if (option.info.name == name)
@@ -317,11 +280,9 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
 }
 
 Option<SceneKeys> effects() {
-  Option<SceneKeys> option =
-      custom<SceneKeys>("effects", "table",
-                        "computed effects by name, e.g. { elasticity=\"box\" }; no other effect is "
-                        "computed",
-                        read_effects);
+  Option<SceneKeys> option = custom<SceneKeys>(
+      "effects", "table",
+      "computed effects by name, e.g. { elasticity=\"box\" }; no other effect is computed", read_effects);
   option.info.inner = &effects_block;
   return std::move(option).required();
 }
@@ -371,6 +332,18 @@ Scene scene_of(const SceneKeys& keys, Surface lower, UpperBody upper) {
 }
 
 }  // namespace
+
+std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems) {
+  std::vector<std::string> names;
+  value.each([&](const Argument& key, const Argument&) {
+    if (key.is_text())
+      names.emplace_back(key.text());
+    else
+      problems.push_back("`effects` holds " + key.describe() + " as a key" + hint);
+  });
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 const RowBlock& effect_block(const Effect& effect) {
   static const std::map<const Effect*, RowBlock> blocks = [] {

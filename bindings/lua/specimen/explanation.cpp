@@ -2,25 +2,74 @@
 #include "bindings/lua/specimen/explanation.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 #include <variant>
 
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
-#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/json.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
 
 namespace {
-std::string times_text(std::int64_t times) {
-  return std::to_string(times) + (times == 1 ? " time" : " times");
+// Null if unknown.
+const SpecimenPair* pressed_by(const Call& call, const Function& function) {
+  const auto contact_at = [&](int k) -> const SpecimenPair* {
+    const Argument value(call.L, k);
+    const auto* stage = value.as<TiltStage>();
+    return stage != nullptr ? stage->contact.get() : value.as<SpecimenPair>();
+  };
+  // Functions with a `path` write files.
+  if (!function.heavy ||
+      std::ranges::find(function.parameters, "path", &Parameter::name) != function.parameters.end())
+    return nullptr;
+  const SpecimenPair* own = contact_at(1);
+  return own != nullptr || call.count() < 1 ? own : contact_at(2);
 }
+
+// One, or the number of values, events or probe pressures.
+std::int64_t presses_of(const Call& call) {
+  const Argument self(call.L, 1);
+  if (const auto* protocol = self.as<Protocol>())
+    return std::ranges::count_if(protocol->events(), [](const Protocol::Event& event) {
+      return std::holds_alternative<PressRequest>(event.step);
+    });
+  // Without probe pressures raised during the run.
+  if (const auto* stage = self.as<TiltStage>()) {
+    const bool probes = !stage->contact->scene().elasticity.model().is_local;
+    return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
+  }
+  std::int64_t presses = 1;
+  if (call.given(1) && call.argument(1).is_table())
+    call.argument(1).each([&](const Argument&, const Argument& loads) {
+      if (loads.is_table()) presses = std::max(presses, loads.length());
+    });
+  return presses;
+}
+
+std::vector<Explanation::Asked> known_presses_of(const Call& call, const Function& function) {
+  const Argument self(call.L, 1);
+  std::vector<Explanation::Asked> asked;
+  if (self.as<SpecimenPair>() != nullptr)
+    for (PressRequest& request : requests_of(call, function)) asked.push_back({std::move(request)});
+  const auto* protocol = self.as<Protocol>();
+  if (protocol == nullptr) return asked;
+  std::map<std::pair<PressBy, double>, std::size_t> known;
+  for (const Protocol::Event& event : protocol->events()) {
+    const auto* press = std::get_if<PressRequest>(&event.step);
+    if (press == nullptr) continue;
+    const auto [at, first] = known.try_emplace({press->by, press->value}, asked.size());
+    if (first)
+      asked.push_back({*press});
+    else
+      ++asked[at->second].times;
+  }
+  return asked;
+}
+
 }  // namespace
 
 Explanation::Calls& Explanation::calls_of(Planned& planned, const std::string& what,
@@ -92,7 +141,7 @@ Explanation::Repeating::~Repeating() {
 std::string Explanation::text() const {
   std::string unplanned;
   for (const auto& [what, count] : unplanned_)
-    unplanned += what + ": " + std::to_string(count) + (count == 1 ? " time" : " times") +
+    unplanned += what + ": " + counted(static_cast<std::size_t>(count), "time") +
                  ", of a contact that is not known before the run or lies over ranks: no plan\n";
   if (planned_.empty()) return unplanned.empty() ? "no contact is pressed\n" : unplanned;
   std::string result;
@@ -102,7 +151,7 @@ std::string Explanation::text() const {
     result += planned.text;
     for (const Calls& calls : planned.calls) {
       solves += calls.times;
-      result += "  " + calls.what + ": " + times_text(calls.times);
+      result += "  " + calls.what + ": " + counted(static_cast<std::size_t>(calls.times), "time");
       const std::string least = format_short(calls.least, 3), most = format_short(calls.most, 3);
       if (calls.by && calls.most > 0)
         result += " by " + quoted(name(*calls.by)) + ", " + (least == most ? most : least + " to " + most) +
@@ -149,72 +198,6 @@ Json Explanation::json() const {
   for (const auto& [what, count] : unplanned_) unplanned.set(what, count);
   return Json::object({{"contacts", contacts}, {"unplanned", unplanned}});
 }
-
-namespace {
-
-// Null if unknown.
-const SpecimenPair* pressed_by(const Call& call, const Function& function) {
-  const auto contact_at = [&](int k) -> const SpecimenPair* {
-    const Object* object = Argument(call.L, k).as_any_object();
-    if (object == nullptr || object->pointer == nullptr) return nullptr;
-    if (object->type == &class_of<SpecimenPair>())
-      return static_cast<const SpecimenPair*>(object->pointer.get());
-    if (object->type == &class_of<TiltStage>())
-      return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
-    return nullptr;
-  };
-  // Functions with a `path` write files.
-  if (!function.heavy ||
-      std::ranges::find(function.parameters, "path", &Parameter::name) != function.parameters.end())
-    return nullptr;
-  const SpecimenPair* own = contact_at(1);
-  return own != nullptr || call.count() < 1 ? own : contact_at(2);
-}
-
-// One, or the number of values, events or probe pressures.
-std::int64_t presses_of(const Call& call) {
-  const Object* self = Argument(call.L, 1).as_any_object();
-  if (self != nullptr && self->type == &class_of<Protocol>() && self->pointer != nullptr) {
-    const auto& events = static_cast<const Protocol*>(self->pointer.get())->events();
-    return std::count_if(events.begin(), events.end(), [](const Protocol::Event& event) {
-      return std::holds_alternative<PressRequest>(event.step);
-    });
-  }
-  // Without probe pressures raised during the run.
-  if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
-    const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
-    const bool probes = !stage->contact->scene().elasticity.model().is_local;
-    return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
-  }
-  std::int64_t presses = 1;
-  if (call.given(1) && call.argument(1).is_table())
-    call.argument(1).each([&](const Argument&, const Argument& loads) {
-      if (loads.is_table()) presses = std::max(presses, loads.length());
-    });
-  return presses;
-}
-
-std::vector<Explanation::Asked> known_presses_of(const Call& call, const Function& function) {
-  const Object* self = Argument(call.L, 1).as_any_object();
-  if (self == nullptr || self->pointer == nullptr) return {};
-  std::vector<Explanation::Asked> asked;
-  if (self->type == &class_of<SpecimenPair>())
-    for (PressRequest& request : requests_of(call, function)) asked.push_back({std::move(request)});
-  if (self->type != &class_of<Protocol>()) return asked;
-  std::map<std::pair<PressBy, double>, std::size_t> known;
-  for (const Protocol::Event& event : static_cast<const Protocol*>(self->pointer.get())->events()) {
-    const auto* press = std::get_if<PressRequest>(&event.step);
-    if (press == nullptr) continue;
-    const auto [at, first] = known.try_emplace({press->by, press->value}, asked.size());
-    if (first)
-      asked.push_back({*press});
-    else
-      ++asked[at->second].times;
-  }
-  return asked;
-}
-
-}  // namespace
 
 void note_call(Explanation& explanation, const Call& call, const Function& function) {
   if (const SpecimenPair* pair = pressed_by(call, function))

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/specimen/protocol.hpp"
 
-#include <optional>
-
 #include "bindings/lua/metrology/stylus.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"
@@ -21,11 +19,6 @@
 namespace asperity::lua {
 
 namespace {
-
-Values make_protocol(Call& call) {
-  const auto protocol = read_protocol(call.argument(1), call.function_name());
-  return {protocol ? object(*protocol) : Value(Object{&class_of<Protocol>(), nullptr, false})};
-}
 
 struct NumberedEvent {
   const Protocol* protocol = nullptr;
@@ -74,12 +67,6 @@ const RecordType<NumberedEvent>& event_type() {
        {"y", part_of<P::Shift, &P::Shift::y>, dimension::length, "of a shift"}}};
   return type;
 }
-
-}  // namespace
-
-Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
-
-namespace {
 
 Values events(Call& call) {
   const Protocol& protocol = call.self<Protocol>();
@@ -191,15 +178,12 @@ Value recording(const Protocol& of) {
 struct ChartKeys {
   std::string title;
 };
-const Block<ChartKeys>& chart_block() {
-  static const Block<ChartKeys> block{{text("title", &ChartKeys::title, "above the chart")}};
-  return block;
-}
+const Block<ChartKeys> chart_block{{text("title", &ChartKeys::title, "above the chart")}};
 
 Values chart_protocol(Call& call) {
   const std::string file = call.text(1, "path");
   picture_format(file);
-  const LineChart lines = protocol_chart(call.self<Protocol>(), call.options(chart_block(), 2).title);
+  const LineChart lines = protocol_chart(call.self<Protocol>(), call.options(chart_block, 2).title);
   const std::string path = writable_path(call, file);
   for (const std::string& warning : draw(lines, path)) call.session().monitor().warn(warning);
   if (const auto& run = call.session().run)
@@ -211,23 +195,13 @@ Values chart_protocol(Call& call) {
 struct RepeatedKeys {
   std::int64_t repeats = 1;
 };
-const Block<RepeatedKeys>& repeated_block() {
-  static const Block<RepeatedKeys> block{
-      {integer("repeats", &RepeatedKeys::repeats, at_least(1), "number of repeats of the protocol")
-           .required()}};
-  return block;
-}
+const Block<RepeatedKeys> repeated_block{
+    {integer("repeats", &RepeatedKeys::repeats, at_least(1), "number of repeats of the protocol")
+         .required()}};
 Values repeated(Call& call) {
-  return {object(call.self<Protocol>().repeated(call.options(repeated_block()).repeats))};
+  return {object(call.self<Protocol>().repeated(call.options(repeated_block).repeats))};
 }
 Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<Protocol>(1, "next")))}; }
-
-Values write_protocol(Call& call) {
-  const std::string log = press_log_text(call.self<Protocol>());
-  const std::string path = writable_path(call, call.text(1, "path"));
-  write_atomically(path, log);
-  return {path};
-}
 
 struct ApplyKeys {
   std::vector<std::string> columns;
@@ -314,115 +288,102 @@ Function apply_method() {
           .heavy = true};
 }
 
-std::string describe_protocol(const void* self) {
-  const auto& protocol = *static_cast<const Protocol*>(self);
-  return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
-}
-std::int64_t length(const void* self) {
-  return static_cast<std::int64_t>(static_cast<const Protocol*>(self)->count());
-}
-std::size_t bytes_of_protocol(const void* self) {
-  return static_cast<const Protocol*>(self)->count() * sizeof(Protocol::Event);
-}
-
 }  // namespace
 
+Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
+
 // data table
-template <>
-const Class& class_of<Protocol>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Protocol";
-    c.article_name = "a protocol";
-    c.sentence =
-        "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
-        "the number of events.";
-    c.length = length;
-    c.describe = describe_protocol;
-    c.native_bytes = bytes_of_protocol;
-    c.equal = have_one_digest<Protocol>;
-    c.digest = text_of<&Protocol::digest>;
-    c.fields = {getter<Protocol>("count", "integer", "number of events",
-                                 [](const Protocol& of) { return length(&of); }),
-                getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
-                getter<recording>("recording", "Recording?",
-                                  "the events and thresholds of the recording; nil without a recording"),
-                getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
-    c.methods = {
-        {.name = "on",
-         .body = on,
-         .sentence =
-             "Does one event after another to a contact, one a turn of a for loop, which is given the event "
-             "and the state of a press, nil after any other. A turn or a load that the contact cannot take "
-             "is an error before the first event. An event that fails raises an error, and leaves the "
-             "contact as it was before that event; a loop that is broken off leaves the rest undone.",
-         .parameters = {{"contact", "Contact", "what it is done to"}},
-         .returns = "iterator<ProtocolEvent and State?>",
-         .example =
-             "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
-         .heavy = true},
-        apply_method(),
-        {.name = "events",
-         .body = events,
-         .sentence = "All events as a list, as p:on gives them.",
-         .returns = "ProtocolEvent[]",
-         .example = "for _, event in ipairs(protocol:events()) do print(event.index, event.text) end"},
-        {.name = "repeated",
-         .body = repeated,
-         .sentence = "The same events several times over, without recorded times.",
-         .options = &repeated_block(),
-         .returns = "Protocol",
-         .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
-                    "rotate=\"90 deg\" } }:repeated{ repeats=8 }"},
-        {.name = "plus",
-         .body = plus,
-         .sentence = "One protocol after another, without recorded times.",
-         .parameters = {{"next", "Protocol", "the next event"}},
-         .returns = "Protocol",
-         .example = "local both = protocol:plus(protocol:repeated{ repeats=2 })"},
-        {.name = "chart",
-         .body = chart_protocol,
-         .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and "
-                     "labelled. A protocol detected in a recording is drawn over the recorded samples. "
-                     "Without recorded times the axis is the sum of dwells, or the event. Returns the "
-                     "file.",
-         .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
-         .options = optional(chart_block()),
-         .returns = "string",
-         .example = "protocol:chart \"protocol.svg\"",
-         .heavy = true},
-        {.name = "write",
-         .body = write_protocol,
-         .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
-                     "pressure or load, and dwell. Shifts, and presses to anything else, are an error.",
-         .parameters = {{"path", "string", "under the run directory"}},
-         .returns = "string",
-         .example = "protocol:write \"press_log.csv\"",
-         .heavy = true},
-    };
-    c.results = {&recording_type(), &span_type(), &event_type()};
-    return c;
-  }();
-  return type;
+Class make_class(For<Protocol>) {
+  Class c{"Protocol", "a protocol",
+          "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
+          "the number of events."};
+  c.length = from_value([](const Protocol& of) { return static_cast<std::int64_t>(of.count()); });
+  c.describe = from_value([](const Protocol& protocol) -> std::string {
+    return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
+  });
+  c.native_bytes = from_value([](const Protocol& of) { return of.count() * sizeof(Protocol::Event); });
+  c.equal = have_one_digest<Protocol>;
+  c.digest = text_of<&Protocol::digest>;
+  c.fields = {getter<&Protocol::count>("count", "integer", "number of events"),
+              getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
+              getter<recording>("recording", "Recording?",
+                                "the events and thresholds of the recording; nil without a recording"),
+              getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
+  c.methods = {
+      {.name = "on",
+       .body = on,
+       .sentence =
+           "Does one event after another to a contact, one a turn of a for loop, which is given the event "
+           "and the state of a press, nil after any other. A turn or a load that the contact cannot take is "
+           "an error before the first event. An event that fails raises an error, and leaves the contact as "
+           "it was before that event; a loop that is broken off leaves the rest undone.",
+       .parameters = {{"contact", "Contact", "what it is done to"}},
+       .returns = "iterator<ProtocolEvent and State?>",
+       .example = "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
+       .heavy = true},
+      apply_method(),
+      {.name = "events",
+       .body = events,
+       .sentence = "All events as a list, as p:on gives them.",
+       .returns = "ProtocolEvent[]",
+       .example = "for _, event in ipairs(protocol:events()) do print(event.index, event.text) end"},
+      {.name = "repeated",
+       .body = repeated,
+       .sentence = "The same events several times over, without recorded times.",
+       .options = &repeated_block,
+       .returns = "Protocol",
+       .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
+                  "rotate=\"90 deg\" } }:repeated{ repeats=8 }"},
+      {.name = "plus",
+       .body = plus,
+       .sentence = "One protocol after another, without recorded times.",
+       .parameters = {{"next", "Protocol", "the next event"}},
+       .returns = "Protocol",
+       .example = "local both = protocol:plus(protocol:repeated{ repeats=2 })"},
+      {.name = "chart",
+       .body = chart_protocol,
+       .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and labelled. A "
+                   "protocol detected in a recording is drawn over the recorded samples. Without recorded "
+                   "times the axis is the sum of dwells, or the event. Returns the file.",
+       .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
+       .options = optional(chart_block),
+       .returns = "string",
+       .example = "protocol:chart \"protocol.svg\"",
+       .heavy = true},
+      {.name = "write",
+       .body = [](Call& call) -> Values {
+         const std::string log = press_log_text(call.self<Protocol>());
+         const std::string path = writable_path(call, call.text(1, "path"));
+         write_atomically(path, log);
+         return {path};
+       },
+       .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
+                   "pressure or load, and dwell. Shifts, and presses to anything else, are an error.",
+       .parameters = {{"path", "string", "under the run directory"}},
+       .returns = "string",
+       .example = "protocol:write \"press_log.csv\"",
+       .heavy = true},
+  };
+  c.results = {&recording_type(), &span_type(), &event_type()};
+  return c;
 }
 
-const Module& protocol_module() {
-  static const Module module = [] {
-    Module m;
-    m.path = "lab.protocol";
-    m.sentence = "Loading protocols: the events of a contact, from tables or press logs.";
-    m.functions = {protocol_read_function()};
-    m.call = Function{.name = "protocol",
-                      .body = make_protocol,
-                      .sentence = "A protocol from a list of events: tables with one key each.",
-                      .options = &protocol_keys(),
-                      .returns = "Protocol",
-                      .example =
-                          "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
-                          "min\" } }, { release=true }, { place={ seed=1 } } }"};
-    return m;
-  }();
-  return module;
+Module protocol_module() {
+  Module m{"lab.protocol", "Loading protocols: the events of a contact, from tables or press logs."};
+  m.functions = {protocol_read_function()};
+  m.call =
+      Function{.name = "protocol",
+               .body = [](Call& call) -> Values {
+                 const auto protocol = read_protocol(call.argument(1), call.function_name());
+                 return {protocol ? object(*protocol) : Value(Object{&class_of<Protocol>(), nullptr, false})};
+               },
+               .sentence = "A protocol from a list of events: tables with one key each.",
+               .options = &protocol_keys(),
+               .returns = "Protocol",
+               .example =
+                   "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 min\" } }, "
+                   "{ release=true }, { place={ seed=1 } } }"};
+  return m;
 }
 
 }  // namespace asperity::lua

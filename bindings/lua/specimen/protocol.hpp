@@ -9,8 +9,7 @@
 
 namespace asperity::lua {
 
-template <>
-const Class& class_of<Protocol>();
+Class make_class(For<Protocol>);
 
 // A press log, or a recording by detection of events.
 Function protocol_read_function();

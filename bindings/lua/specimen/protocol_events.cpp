@@ -11,24 +11,19 @@ namespace asperity::lua {
 namespace {
 
 const std::vector<OptionInfo>& infos() {
-  static const std::vector<OptionInfo> all = [] {
-    std::vector<OptionInfo> list;
-    const auto add = [&](std::string name, std::string type, std::string sentence, const BlockInfo* inner) {
-      OptionInfo info;
-      info.name = std::move(name);
-      info.type = std::move(type);
-      info.sentence = std::move(sentence);
-      info.inner = inner;
-      list.push_back(std::move(info));
-    };
-    add("press", "table", "puts a load on, as c:press does", &press_block());
-    add("release", "boolean", "true: takes it off", nullptr);
-    add("place", "table", "lifts the upper body and puts it down afresh, as c:place does", &place_block());
-    add("rotate", "an angle", "turns the upper body by an angle, as c:rotate does", nullptr);
-    add("shift", "table", "shifts the upper body, as c:shift does", &shift_block());
-    list[3].dimension = dimension::angle;
-    return list;
-  }();
+  static const std::vector<OptionInfo> all = {
+      {"press", "table", {}, "", "", "puts a load on, as c:press does", false, &press_block},
+      {"release", "boolean", {}, "", "", "true: takes it off"},
+      {"place",
+       "table",
+       {},
+       "",
+       "",
+       "lifts the upper body and puts it down afresh, as c:place does",
+       false,
+       &place_block},
+      {"rotate", "an angle", dimension::angle, "", "", "turns the upper body by an angle, as c:rotate does"},
+      {"shift", "table", {}, "", "", "shifts the upper body, as c:shift does", false, &shift_block}};
   return all;
 }
 
@@ -151,12 +146,11 @@ class EventReader {
 
   void read_step(const std::string& name, const Argument& value) {
     if (name == "press") {
-      read_table(press_block(), name, value, [](const PressKeys& keys) { return PressRequest(keys); });
+      read_table(press_block, name, value, [](const PressKeys& keys) { return PressRequest(keys); });
     } else if (name == "place") {
-      read_table(place_block(), name, value,
-                 [](const PlaceKeys& keys) { return Protocol::Place{keys.seed}; });
+      read_table(place_block, name, value, [](const PlaceKeys& keys) { return Protocol::Place{keys.seed}; });
     } else if (name == "shift") {
-      read_table(shift_block(), name, value, [](const ShiftKeys& keys) {
+      read_table(shift_block, name, value, [](const ShiftKeys& keys) {
         return Protocol::Shift{keys.x, keys.y};
       });
     } else if (name == "rotate") {
@@ -194,11 +188,7 @@ class EventReader {
 
 class ProtocolKeys final : public BlockInfo {
  public:
-  std::vector<const OptionInfo*> options() const override {
-    std::vector<const OptionInfo*> all;
-    for (const OptionInfo& info : infos()) all.push_back(&info);
-    return all;
-  }
+  std::vector<const OptionInfo*> options() const override { return pointers_to(infos()); }
   bool is_list() const override { return true; }
   void check(const Argument& list, const std::string& caller) const override { read_protocol(list, caller); }
 };

@@ -40,83 +40,75 @@ Option<ReadProtocolKeys> reading(std::string name, std::optional<Quantity> ReadP
              std::move(name), "a load|a pressure", std::move(sentence),
              [member, signed_value](const Argument& value, const OptionInfo& info, ReadProtocolKeys& keys,
                                     Problems& problems) {
-               if (!value.is_number() && !value.is_text())
-                 return detail::wrong_type(value, info, "a load such as \"2 N\" or a pressure", problems);
-               try {
-                 const Quantity quantity = value.is_number() ? Quantity{value.number(), dimension::number}
-                                                             : parse_quantity(value.text());
-                 const Dimension d = quantity.dimension;
-                 if (d != dimension::number && d != dimension::force && d != dimension::pressure)
-                   problems.push_back(quoted(info.name) + " is " + asperity::describe(d) +
-                                      "; give a load such as \"2 N\" or a pressure such as \"0.1 MPa\"");
-                 else if (!std::isfinite(quantity.value) || (!signed_value && quantity.value < 0))
-                   problems.push_back(quoted(info.name) + " is " + format_short(quantity.value) +
-                                      "; give zero or more");
-                 else
-                   keys.*member = quantity;
-               } catch (const Error& error) {
-                 problems.push_back(quoted(info.name) + ": " + error.what());
-               }
+               const auto quantity = detail::read_any_quantity(
+                   value, info.name, "a load such as \"2 N\" or a pressure", problems);
+               if (!quantity) return;
+               const Dimension d = quantity->dimension;
+               if (d != dimension::number && d != dimension::force && d != dimension::pressure)
+                 problems.push_back(quoted(info.name) + " is " + asperity::describe(d) +
+                                    "; give a load such as \"2 N\" or a pressure such as \"0.1 MPa\"");
+               else if (!std::isfinite(quantity->value) || (!signed_value && quantity->value < 0))
+                 problems.push_back(quoted(info.name) + " is " + format_short(quantity->value) +
+                                    "; give zero or more");
+               else
+                 keys.*member = quantity;
              })
       .shown_by([member](const ReadProtocolKeys& keys) {
         return keys.*member ? format_exact((keys.*member)->value) : std::string();
       });
 }
 
-const Block<ReadProtocolKeys>& read_protocol_block() {
-  using K = ReadProtocolKeys;
-  using Overshoot = DetectionOptions::Overshoot;
-  static const Block<K> block = [] {
-    std::vector<Option<K>> keys{
-        choice(
-            "events", &K::events, {{"rows", ReadAs::rows}, {"detect", ReadAs::detect}},
-            "\"rows\": each row is an event; \"detect\": they are found in a recording sampled all the time")
-            .defaults_to("as the table looks: a hundred rows or more with times, and no dwell, place or "
-                         "turn, are a recording"),
-        quantity("area", &K::area, dimension::area, above(0),
-                 "nominal area of the specimen that was pressed: its loads become mean pressures, as a tile "
-                 "of it carries them"),
-        reading("noise", &K::noise, false, "standard deviation of a reading").defaults_to("measured"),
-        reading("zero", &K::zero, true, "reading of the sensor without load, throughout")
-            .defaults_to("found in the rests, and followed"),
-        number("zero_drift", &K::zero_drift, inside(0, 0.5),
-               "how far from the rest before a rest may lie, as a share of the highest load")
-            .defaults_to("0.01"),
-        number("same_load", &K::same_load, inside(0, 0.5),
-               "greatest drift of a hold, and distance from the hold before to be part of it, as a share of "
-               "its load")
-            .defaults_to("0.02"),
-        quantity("shortest_hold", &K::shortest_hold, dimension::time, above(0),
-                 "a shorter level stretch is no hold")
-            .defaults_to("four usual steps of time"),
-        number("evidence", &K::evidence, above(0),
-               "squares of the noise that a bend must save to be seen; fewer see more, and ghosts")
-            .defaults_to("10 + 4 ln samples"),
-        choice("overshoot", &K::overshoot, {{"press", Overshoot::press}, {"ignore", Overshoot::ignore}},
-               "a load above the holds on both sides: a separate press, because flattening depends on the "
-               "highest load, or nothing")
-            .defaults_to("\"press\""),
-        number("least_overshoot", &K::least_overshoot, inside(0, 1),
-               "a smaller overshoot is ignored, as a share of the neighbouring load; also one within six "
-               "times the noise")
-            .defaults_to("0.01"),
-        quantity("least_turn", &K::least_turn, dimension::angle, above(0), "a turn by less is none")
-            .defaults_to("\"0.5 deg\""),
-        quantity("turn_step", &K::turn_step, dimension::angle, above(0),
-                 "turns are whole multiples of this, and are rounded to them")
-            .defaults_to("none: turns are as they were read"),
-        choice("equal_times", &K::equal_times,
-               {{"error", EqualTimes::refuse}, {"spread", EqualTimes::spread}},
-               "samples with equal times, as from a fast logger with a slow clock: an error, or spread "
-               "evenly until the next time")};
-    keys.insert(keys.end(), table_form_keys().begin(), table_form_keys().end());
-    return Block<K>(std::move(keys), [](K& given, Problems& problems) {
-      if (given.events == ReadAs::rows && given.detects())
-        problems.push_back("with events=\"rows\" nothing is detected, so only `events` may be given");
-    });
-  }();
-  return block;
-}
+const Block<ReadProtocolKeys> read_protocol_block = [] {
+  std::vector<Option<ReadProtocolKeys>> keys{
+      choice("events", &ReadProtocolKeys::events, {{"rows", ReadAs::rows}, {"detect", ReadAs::detect}},
+             "\"rows\": each row is an event; \"detect\": they are found in a recording sampled all the time")
+          .defaults_to("as the table looks: a hundred rows or more with times, and no dwell, place or "
+                       "turn, are a recording"),
+      quantity("area", &ReadProtocolKeys::area, dimension::area, above(0),
+               "nominal area of the specimen that was pressed: its loads become mean pressures, as a tile "
+               "of it carries them"),
+      reading("noise", &ReadProtocolKeys::noise, false, "standard deviation of a reading")
+          .defaults_to("measured"),
+      reading("zero", &ReadProtocolKeys::zero, true, "reading of the sensor without load, throughout")
+          .defaults_to("found in the rests, and followed"),
+      number("zero_drift", &ReadProtocolKeys::zero_drift, inside(0, 0.5),
+             "how far from the rest before a rest may lie, as a share of the highest load")
+          .defaults_to("0.01"),
+      number("same_load", &ReadProtocolKeys::same_load, inside(0, 0.5),
+             "greatest drift of a hold, and distance from the hold before to be part of it, as a share of "
+             "its load")
+          .defaults_to("0.02"),
+      quantity("shortest_hold", &ReadProtocolKeys::shortest_hold, dimension::time, above(0),
+               "a shorter level stretch is no hold")
+          .defaults_to("four usual steps of time"),
+      number("evidence", &ReadProtocolKeys::evidence, above(0),
+             "squares of the noise that a bend must save to be seen; fewer see more, and ghosts")
+          .defaults_to("10 + 4 ln samples"),
+      choice("overshoot", &ReadProtocolKeys::overshoot,
+             {{"press", DetectionOptions::Overshoot::press}, {"ignore", DetectionOptions::Overshoot::ignore}},
+             "a load above the holds on both sides: a separate press, because flattening depends on the "
+             "highest load, or nothing")
+          .defaults_to("\"press\""),
+      number("least_overshoot", &ReadProtocolKeys::least_overshoot, inside(0, 1),
+             "a smaller overshoot is ignored, as a share of the neighbouring load; also one within six "
+             "times the noise")
+          .defaults_to("0.01"),
+      quantity("least_turn", &ReadProtocolKeys::least_turn, dimension::angle, above(0),
+               "a turn by less is none")
+          .defaults_to("\"0.5 deg\""),
+      quantity("turn_step", &ReadProtocolKeys::turn_step, dimension::angle, above(0),
+               "turns are whole multiples of this, and are rounded to them")
+          .defaults_to("none: turns are as they were read"),
+      choice("equal_times", &ReadProtocolKeys::equal_times,
+             {{"error", EqualTimes::refuse}, {"spread", EqualTimes::spread}},
+             "samples with equal times, as from a fast logger with a slow clock: an error, or spread "
+             "evenly until the next time")};
+  keys.insert(keys.end(), table_form_keys().begin(), table_form_keys().end());
+  return Block<ReadProtocolKeys>(std::move(keys), [](ReadProtocolKeys& given, Problems& problems) {
+    if (given.events == ReadAs::rows && given.detects())
+      problems.push_back("with events=\"rows\" nothing is detected, so only `events` may be given");
+  });
+}();
 
 DetectionOptions detection_options(const ReadProtocolKeys& keys, const PressRecording& recording) {
   DetectionOptions options;
@@ -158,7 +150,7 @@ Protocol over_area(const Protocol& protocol, const std::optional<double>& area) 
 
 Values read_protocol(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
-  const ReadProtocolKeys keys = call.options(read_protocol_block(), 2);
+  const ReadProtocolKeys keys = call.options(read_protocol_block, 2);
   Monitor& monitor = call.session().monitor();
   const SourceFile file(path, monitor);
   note_input(call, path);
@@ -195,7 +187,7 @@ Function protocol_read_function() {
               "lists them with the lines they came from and the thresholds, and uncertainty by noise is a "
               "warning or an error. Press times are those of the beginning of the hold.",
           .parameters = {{"path", "string", "the file"}},
-          .options = optional(read_protocol_block()),
+          .options = optional(read_protocol_block),
           .returns = "Protocol",
           .example = "local protocol = lab.protocol.read \"press_log.csv\"",
           .heavy = true};

@@ -81,8 +81,7 @@ Function shear_method() {
           .heavy = true};
 }
 
-template <>
-Class make_class<PartialSlip>() {
+Class make_class(For<PartialSlip>) {
   using S = PartialSlip;
   Class c{"Shear", "a shear", "A contact under load, pulled sideways: one part sticks, the rest slips."};
   c.describe = text_of<&PartialSlip::text>;

@@ -8,7 +8,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/specimen/contact.hpp"
-#include "engine/specimen/tilt_trials.hpp"
 
 namespace asperity::lua {
 
@@ -162,11 +161,6 @@ Values raise_stage(Call& call) {
   return {tilt_type(raise(*stage.contact, *stage.law, options, call.session().monitor()))};
 }
 
-std::string describe_stage(const TiltStage& stage) {
-  return "tilt stage: mass " + format_quantity(stage.options.stage.mass, dimension::mass) + ", " +
-         stage.law->text();
-}
-
 }  // namespace
 
 Function tilt_stage_function() {
@@ -179,11 +173,13 @@ Function tilt_stage_function() {
       .example = "local stage = lab.tilt_stage{ contact=c, friction=law, mass=\"4.3 g\" }"};
 }
 
-template <>
-Class make_class<TiltStage>() {
+Class make_class(For<TiltStage>) {
   Class c{"TiltStage", "a tilt stage", "A tilt stage with a specimen on it."};
   c.shareable = false;
-  c.describe = text_of<describe_stage>;
+  c.describe = from_value([](const TiltStage& stage) -> std::string {
+    return "tilt stage: mass " + format_quantity(stage.options.stage.mass, dimension::mass) + ", " +
+           stage.law->text();
+  });
   c.methods = {
       {.name = "raise",
        .body = raise_stage,

@@ -15,8 +15,7 @@ struct TiltStage {
   TiltTrialOptions options;
 };
 
-template <>
-Class make_class<TiltStage>();
+Class make_class(For<TiltStage>);
 
 Function tilt_stage_function();
 

@@ -51,12 +51,9 @@ struct SpreadState {
   std::string digest;  // of the numbers below
 };
 
-template <>
-Class make_class<SlabSurface>();
-template <>
-Class make_class<SpreadContact>();
-template <>
-Class make_class<SpreadState>();
+Class make_class(For<SlabSurface>);
+Class make_class(For<SpreadContact>);
+Class make_class(For<SpreadState>);
 
 Function spread_contact_function();
 

@@ -16,8 +16,6 @@ namespace asperity::lua {
 
 namespace {
 
-// --- the scene
-
 struct spread_SceneKeys {
   std::optional<SlabSurface> lower;
   std::optional<Material> upper;
@@ -69,64 +67,60 @@ void spread_read_effects(const Argument& value, const OptionInfo& info, spread_S
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"half_space\" }", problems);
   const std::vector<std::string> names = effects_named(value, "", problems);
-  for (const std::string& name : names) {
-    try {
+  for (const std::string& name : names)
+    detail::collect(problems, [&] {
       with_key(value, name, [&](const Argument& given) { read_effect(name, given, keys, problems); });
-    } catch (const Error& error) {
-      problems.push_back(error.what());
-    }
-  }
+    });
   if (std::find(names.begin(), names.end(), elasticity_effect) == names.end())
     problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\"");
 }
 
-const Block<spread_SceneKeys>& spread_scene_block() {
-  using K = spread_SceneKeys;
-  static const Block<K> block{
-      {custom<K>("lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (const SlabSurface* surface = value.as<SlabSurface>())
-                     keys.lower = *surface;
-                   else if (const Object* other = value.as_any_object();
-                            other != nullptr && other->type == &class_of<Surface>())
-                     problems.push_back(
-                         "`lower` is a surface that every rank holds; make it with lab.spread, or press it "
-                         "with lab.contact");
-                   else if (!value.is_unknown())
-                     detail::wrong_type(value, info, "a surface from lab.spread", problems);
-                 })
-           .required(),
-       custom<K>("upper", "Material", "a flat of a material, or lab.rigid",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (const Material* material = value.as<Material>())
-                     keys.upper = *material;
-                   else if (!value.is_unknown())
-                     detail::wrong_type(
-                         value, info, "a material or lab.rigid; over ranks the upper body is flat", problems);
-                 })
-           .required(),
-       custom<K>("boundary", "\"periodic\"", "the tile goes on beyond its rim",
-                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-                   if (value.is_text() && value.text() == "free")
-                     problems.push_back(
-                         "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or "
-                         "use lab.contact");
-                   else if (!value.is_text() || value.text() != "periodic")
-                     detail::wrong_type(value, info, "\"periodic\"", problems);
-                 })
-           .required(),
-       custom<K>("effects", "table",
-                 "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
-                 "is limited",
-                 spread_read_effects)
-           .required(),
-       table_of("accuracy", &K::accuracy, spread_accuracy_block,
-                "required accuracy of a solve, and the action on failure")}};
-  return block;
-}
+const Block<spread_SceneKeys> spread_scene_block{
+    {custom<spread_SceneKeys>(
+         "lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
+         [](const Argument& value, const OptionInfo& info, spread_SceneKeys& keys, Problems& problems) {
+           if (const SlabSurface* surface = value.as<SlabSurface>())
+             keys.lower = *surface;
+           else if (const Object* other = value.as_any_object();
+                    other != nullptr && other->type == &class_of<Surface>())
+             problems.push_back(
+                 "`lower` is a surface that every rank holds; make it with lab.spread, or press it with "
+                 "lab.contact");
+           else if (!value.is_unknown())
+             detail::wrong_type(value, info, "a surface from lab.spread", problems);
+         })
+         .required(),
+     custom<spread_SceneKeys>(
+         "upper", "Material", "a flat of a material, or lab.rigid",
+         [](const Argument& value, const OptionInfo& info, spread_SceneKeys& keys, Problems& problems) {
+           if (const Material* material = value.as<Material>())
+             keys.upper = *material;
+           else if (!value.is_unknown())
+             detail::wrong_type(value, info, "a material or lab.rigid; over ranks the upper body is flat",
+                                problems);
+         })
+         .required(),
+     custom<spread_SceneKeys>(
+         "boundary", "\"periodic\"", "the tile goes on beyond its rim",
+         [](const Argument& value, const OptionInfo& info, spread_SceneKeys&, Problems& problems) {
+           if (value.is_text() && value.text() == "free")
+             problems.push_back(
+                 "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or use "
+                 "lab.contact");
+           else if (!value.is_text() || value.text() != "periodic")
+             detail::wrong_type(value, info, "\"periodic\"", problems);
+         })
+         .required(),
+     custom<spread_SceneKeys>("effects", "table",
+                              "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } "
+                              "if pressure is limited",
+                              spread_read_effects)
+         .required(),
+     table_of("accuracy", &spread_SceneKeys::accuracy, spread_accuracy_block,
+              "required accuracy of a solve, and the action on failure")}};
 
 Values spread_make_contact(Call& call) {
-  const spread_SceneKeys keys = call.options(spread_scene_block());
+  const spread_SceneKeys keys = call.options(spread_scene_block);
   const SlabTerms terms = slab_terms(keys.lower->material, *keys.upper, keys.effects);
   SpreadContact contact;
   contact.problem.surface = *keys.lower;
@@ -137,8 +131,6 @@ Values spread_make_contact(Call& call) {
   contact.plastic = keys.effects.any_that(Effect::Acts::bounds_pressure);
   return {object(std::move(contact))};
 }
-
-// --- pressing
 
 struct SpreadPress {
   std::optional<double> pressure, load, approach, indentation;
@@ -208,12 +200,6 @@ Values spread_press(Call& call) {
   return {object(std::move(state))};
 }
 
-std::string describe_spread_contact(const SpreadContact& of) {
-  const auto& s = of.problem.surface;
-  return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
-         std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
-}
-
 }  // namespace
 
 SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const SpreadRequest& request,
@@ -228,19 +214,22 @@ Function spread_contact_function() {
           .sentence =
               "A periodic half-space contact over the ranks, under a flat: the problem, the certificates and "
               "the units of lab.contact. Nothing stays on the surface after a press.",
-          .options = &spread_scene_block(),
+          .options = &spread_scene_block,
           .returns = "SpreadContact",
           .example =
               "local c = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary=\"periodic\", effects={ "
               "elasticity=\"half_space\" } }"};
 }
 
-template <>
-Class make_class<SpreadContact>() {
+Class make_class(For<SpreadContact>) {
   Class c{"SpreadContact", "a contact over ranks",
           "A surface in slabs under a flat, ready to be pressed by all ranks together."};
   c.shareable = false;
-  c.describe = text_of<describe_spread_contact>;
+  c.describe = from_value([](const SpreadContact& of) -> std::string {
+    const auto& s = of.problem.surface;
+    return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
+           std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
+  });
   c.digest = from_value([](const SpreadContact& of) { return of.problem.surface.digest; });
   c.methods = {{.name = "press",
                 .body = spread_press,

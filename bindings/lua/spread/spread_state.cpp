@@ -59,6 +59,56 @@ std::string key_of(const SlabContactProblem& problem, const SpreadRequest& reque
   return digester.hex();
 }
 
+const SlabContactAnswer& answer(const SpreadState& of) { return *of.answer; }
+
+double nodes(const SpreadState& of) { return of.surface.slab.all_nodes(); }
+
+const SlabContactAnswer& plastic_answer(const SpreadState& of, const char* name) {
+  if (!of.plastic)
+    refuse_without(quoted(name), effects_that(Effect::Acts::bounds_pressure),
+                   "name it in `effects` of lab.spread.contact");
+  return answer(of);
+}
+
+const RecordType<Certificate> spread_certificate_type{"SpreadCertificate", "certificate",
+                                                      "Violations of the contact conditions, each relative.",
+                                                      certificate_fields()};
+
+Values spread_state_write(Call& call) {
+  SpreadState& state = call.self<SpreadState>();
+  const std::string name = call.text(1, "name"), path = writable_path(call, call.text(2, "path"));
+  const bool pressure = name == "pressure", contact = name == "contact";
+  if (!pressure && !contact && name != "gap")
+    throw Error(ErrorCode::unknown_name, "there is no field " + quoted(name),
+                "give \"pressure\", \"gap\" or \"contact\"");
+  Team& team = team_of(call);
+  if (!state.has_fields) {  // from the store
+    state.answer = std::make_shared<const SlabContactAnswer>(
+        solve(team, state.problem, state.request, call.session().monitor()));
+    state.has_fields = true;
+  }
+  const SlabContactAnswer& a = *state.answer;
+  const Slab& slab = state.surface.slab;
+  const auto row = [&](int j, double* to) {
+    const std::size_t begin = static_cast<std::size_t>(j - slab.first()) * slab.width();
+    for (std::size_t i = 0; i < slab.width(); ++i) {
+      const double p = a.pressure[begin + i];
+      to[i] = pressure ? p : contact ? (p > 0 ? 1.0 : 0.0) : p > 0 ? 0.0 : std::max(0.0, a.gap[begin + i]);
+    }
+  };
+  write_slabs(team, slab, row, path, call.session().monitor());
+  return {path};
+}
+
+std::string describe_spread_state(const SpreadState& s) {
+  const SlabContactAnswer& a = *s.answer;
+  return "state over " + counted(static_cast<std::size_t>(s.ranks), "rank") + ": pressure " +
+         format_quantity(a.mean_pressure, dimension::pressure) + ", approach " +
+         format_quantity(a.approach, dimension::length) + ", area fraction " +
+         format_short(static_cast<double>(a.contacts) / s.surface.slab.all_nodes()) +
+         (a.converged ? "" : ", not converged");
+}
+
 }  // namespace
 
 std::optional<Costed<SlabContactAnswer>> recalled_press(const Call& call, Team& team,
@@ -107,63 +157,8 @@ void keep_press(const Call& call, const SlabContactProblem& problem, const Sprea
   store->keep(key_of(problem, request), spread_form, facts, {});
 }
 
-namespace {
-
-const SlabContactAnswer& answer(const SpreadState& of) { return *of.answer; }
-
-double nodes(const SpreadState& of) { return of.surface.slab.all_nodes(); }
-
-const SlabContactAnswer& plastic_answer(const SpreadState& of, const char* name) {
-  if (!of.plastic)
-    refuse_without(quoted(name), effects_that(Effect::Acts::bounds_pressure),
-                   "name it in `effects` of lab.spread.contact");
-  return answer(of);
-}
-
-const RecordType<Certificate> spread_certificate_type{"SpreadCertificate", "certificate",
-                                                      "Violations of the contact conditions, each relative.",
-                                                      certificate_fields()};
-
-Values spread_state_write(Call& call) {
-  SpreadState& state = call.self<SpreadState>();
-  const std::string name = call.text(1, "name"), path = writable_path(call, call.text(2, "path"));
-  const bool pressure = name == "pressure", contact = name == "contact";
-  if (!pressure && !contact && name != "gap")
-    throw Error(ErrorCode::unknown_name, "there is no field " + quoted(name),
-                "give \"pressure\", \"gap\" or \"contact\"");
-  Team& team = team_of(call);
-  if (!state.has_fields) {  // from the store
-    state.answer = std::make_shared<const SlabContactAnswer>(
-        solve(team, state.problem, state.request, call.session().monitor()));
-    state.has_fields = true;
-  }
-  const SlabContactAnswer& a = *state.answer;
-  const Slab& slab = state.surface.slab;
-  const auto row = [&](int j, double* to) {
-    const std::size_t begin = static_cast<std::size_t>(j - slab.first()) * slab.width();
-    for (std::size_t i = 0; i < slab.width(); ++i) {
-      const double p = a.pressure[begin + i];
-      to[i] = pressure ? p : contact ? (p > 0 ? 1.0 : 0.0) : p > 0 ? 0.0 : std::max(0.0, a.gap[begin + i]);
-    }
-  };
-  write_slabs(team, slab, row, path, call.session().monitor());
-  return {path};
-}
-
-std::string describe_spread_state(const SpreadState& s) {
-  const SlabContactAnswer& a = *s.answer;
-  return "state over " + std::to_string(s.ranks) + (s.ranks == 1 ? " rank" : " ranks") + ": pressure " +
-         format_quantity(a.mean_pressure, dimension::pressure) + ", approach " +
-         format_quantity(a.approach, dimension::length) + ", area fraction " +
-         format_short(static_cast<double>(a.contacts) / s.surface.slab.all_nodes()) +
-         (a.converged ? "" : ", not converged");
-}
-
-}  // namespace
-
 // data table
-template <>
-Class make_class<SpreadState>() {
+Class make_class(For<SpreadState>) {
   using A = SlabContactAnswer;
   using S = SpreadState;
   Class c{"SpreadState", "a state over ranks",

@@ -29,27 +29,14 @@ Values spread_flat_body(Call& call) {
   return spread_result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
 }
 
-// While other ranks wait for this call.
-class WaitedFor {
- public:
-  explicit WaitedFor(Session& session) : session_(session) {
-    session_.with_other_ranks = session_.ranks != nullptr;
-  }
-  ~WaitedFor() { session_.with_other_ranks = false; }
-  WaitedFor(const WaitedFor&) = delete;
-  WaitedFor& operator=(const WaitedFor&) = delete;
-
- private:
-  Session& session_;
-};
-
 Values spread_from_function_body(Call& call) {
   const GridKeys keys = call.options(from_function_block);
   const Grid grid = keys.make();
   Team& team = team_of(call);
   return with_key(call.argument(1), "height", [&](const Argument& function) {
     const Callback height(function);
-    const WaitedFor waited_for(call.session());
+    Session& session = call.session();
+    const Temporarily waits(session.with_other_ranks, session.ranks != nullptr);
     const auto row = [&](int j, double* to) {
       for (int i = 0; i < grid.nx; ++i) to[i] = height({i * grid.hx(), j * grid.hy()}, "height");
     };
@@ -88,12 +75,6 @@ Values spread_write(Call& call) {
   return {path};
 }
 
-std::string spread_describe(const SlabSurface& s) {
-  return "surface of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
-         std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks") + ", rms height " +
-         format_quantity(s.rms, dimension::length);
-}
-
 }  // namespace
 
 Team& team_of(const Call& call) {
@@ -112,10 +93,9 @@ Team& team_of(const Call& call) {
 
 Module spread_module() {
   Module m{"lab.spread",
-           "One contact that does not fit one process: surfaces, the half-space and its states in slabs "
-           "over the ranks of `mpirun -n K asperity run`; no rank holds the whole grid. In a process alone "
-           "the same with one slab. Over several ranks last digits hang on the processor and the C "
-           "library."};
+           "One contact that does not fit one process: surfaces, the half-space and its states in slabs over "
+           "the ranks of `mpirun -n K asperity run`; no rank holds the whole grid. In a process alone the "
+           "same with one slab. Over several ranks last digits hang on the processor and the C library."};
   auto add = [&](const char* name, Body body, const char* sentence, const BlockInfo& block,
                  const char* example) {
     m.functions.push_back({.name = name,
@@ -153,12 +133,15 @@ Module spread_module() {
   return m;
 }
 
-template <>
-Class make_class<SlabSurface>() {
+Class make_class(For<SlabSurface>) {
   using S = SlabSurface;
   Class c{"SpreadSurface", "a surface over ranks", "A rough surface; each rank holds some rows."};
   c.shareable = false;
-  c.describe = text_of<spread_describe>;
+  c.describe = from_value([](const SlabSurface& s) -> std::string {
+    return "surface of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
+           std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks") + ", rms height " +
+           format_quantity(s.rms, dimension::length);
+  });
   c.native_bytes = from_value([](const SlabSurface& of) { return of.heights->size() * sizeof(double); });
   c.digest = text_of<&SlabSurface::digest>;
   c.fields = {

@@ -24,17 +24,9 @@ namespace {
 
 // On failure adds a problem and returns nothing.
 std::optional<Quantity> quantity_of(const Argument& value, const std::string& path, Problems& problems) {
-  if (value.is_number()) return Quantity{value.number(), dimension::number};
-  if (value.is_text()) {
-    try {
-      return parse_quantity(value.text());
-    } catch (const Error& error) {
-      problems.push_back(quoted(path) + ": " + error.what());
-      return {};
-    }
-  }
-  problems.push_back(quoted(path) + (value.is_nil() ? " is missing" : " is " + value.describe()) +
-                     "; give a number or a quantity such as \"1.1 GPa\"");
+  constexpr std::string_view wanted = "a number or a quantity such as \"1.1 GPa\"";
+  if (!value.is_nil()) return detail::read_any_quantity(value, path, wanted, problems);
+  problems.push_back(quoted(path) + " is missing; give " + std::string(wanted));
   return {};
 }
 
@@ -44,8 +36,7 @@ InputShape read_shape(const Argument& given, const std::string& place, Problems&
   const auto shapes = input_shapes().first(4);
   const auto found = std::ranges::find(shapes, given.is_text() ? given.text() : "");
   if (found == shapes.end())
-    problems.push_back(quoted(place) + " is " + given.describe() +
-                       "; give \"normal\", \"uniform\", \"lognormal\" or \"triangular\"");
+    detail::wrong_type(given, place, "\"normal\", \"uniform\", \"lognormal\" or \"triangular\"", problems);
   return static_cast<InputShape>(found - shapes.begin());
 }
 
@@ -176,16 +167,12 @@ void read_sweep(const std::string& name, const std::string& path, const Argument
     if (auto read = knob_value(item, unknown))
       knob.values.push_back(*std::move(read));
     else
-      problems.push_back(quoted(place) + " is " + item.describe() + "; give " + knob_kinds +
-                         ", and convert it inside `ask`");
+      detail::wrong_type(item, place, std::string(knob_kinds) + ", and convert it inside `ask`", problems);
   };
   if (!value.is_table()) {
     take(value, path);
   } else {
-    const std::int64_t length = value.length();
-    std::int64_t entries = 0;
-    value.each([&](const Argument&, const Argument&) { ++entries; });
-    if (entries != length) {
+    if (!value.is_list()) {
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
       return;
     }
@@ -210,10 +197,8 @@ void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs,
 
 void AskedFunction::call(const Knobs& knobs) const {
   push_with_knobs(L_, ask_, knobs, "the table of `ask`");
-  if (lua_pcall(L_, 1, 1, 0) == LUA_OK) return;
-  stop_flag().check();
-  throw Error(ErrorCode::bad_value,
-              "`ask` failed for " + lua_source(knobs) + ": " + std::string(error_text(L_, -1)));
+  if (const auto failure = failure_of_call(L_, 1, 1))
+    throw Error(ErrorCode::bad_value, "`ask` failed for " + lua_source(knobs) + ": " + *failure);
 }
 
 AskedFunction::Answer AskedFunction::operator()(const Knobs& knobs, Monitor& monitor) const {

@@ -86,16 +86,14 @@ void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys,
 
 template <class O>
 Option<O> inputs_option(InputKeys O::*member) {
-  return custom<O>("inputs", "table",
-                   "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the "
-                   "same unit, or a share such as \"5 %\". shape=\"uniform\" lies anywhere within √3 u, "
-                   "\"triangular\" within √6 u; \"lognormal\" has mean `value` and deviation u; else it is "
-                   "normal, with degrees=n-1 if u comes from n readings (Student's t). { sample={…} } is a "
-                   "list of draws of the quantity itself. A calibration gives all its parameters, under "
-                   "their own names and with their correlation. `ask` gets each as a plain SI number",
-                   [member](const Argument& value, const OptionInfo& info, O& keys, Problems& problems) {
-                     read_inputs(value, info, keys.*member, problems);
-                   });
+  return custom("inputs", "table",
+                "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the "
+                "same unit, or a share such as \"5 %\". shape=\"uniform\" lies anywhere within √3 u, "
+                "\"triangular\" within √6 u; \"lognormal\" has mean `value` and deviation u; else it is "
+                "normal, with degrees=n-1 if u comes from n readings (Student's t). { sample={…} } is a "
+                "list of draws of the quantity itself. A calibration gives all its parameters, under "
+                "their own names and with their correlation. `ask` gets each as a plain SI number",
+                member, read_inputs);
 }
 
 constexpr const char* knob_kinds = "a number, a string or a boolean";

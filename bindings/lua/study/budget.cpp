@@ -77,8 +77,8 @@ void read_cells(const Argument& value, const OptionInfo& info, BudgetKeys& keys,
 // Reads { { "a", "b", -0.8 }, … }.
 void read_correlation(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
   std::vector<KnobSweep> rows;
-  for (std::int64_t k = 1; value.is_table() && k <= value.length(); ++k)
-    value.element(k, [&](const Argument& row) {
+  if (value.is_table())
+    value.elements([&](const Argument& row, std::int64_t k) {
       read_sweep("", info.name + "[" + std::to_string(k) + "]", row, keys.given.unknown, rows, problems);
     });
   bool wrong = rows.empty();
@@ -330,11 +330,10 @@ Function budget_function() {
       .name = "budget",
       .body = make_budget,
       .sentence =
-          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
-          "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
-          "share of each part, the cost of halving each, and the cheapest way to an interval. print() adds "
-          "a sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its "
-          "store.",
+          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser "
+          "tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of "
+          "each part, the cost of halving each, and the cheapest way to an interval. print() adds a sheet of "
+          "the inputs as the GUM has it. Presses computed before in the run are taken from its store.",
       .options = &budget_block,
       .returns = "Budget",
       .example =
@@ -344,8 +343,7 @@ Function budget_function() {
           "})"};
 }
 
-template <>
-Class make_class<Budget>() {
+Class make_class(For<Budget>) {
   Class c{"Budget", "a budget", "A number with its whole error. print() shows the table of parts."};
   c.describe = lines_of<Budget>;
   c.fields = {

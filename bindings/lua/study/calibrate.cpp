@@ -24,8 +24,6 @@ namespace {
 
 using Rows = asperity::Table;
 
-// --- options
-
 struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
   std::vector<CalibrationParameter> parameters;  // by name: Lua has no order
@@ -37,25 +35,16 @@ struct CalibrateKeys : CalibrationKeys {
 // In SI, or the first quantity's dimension.
 std::optional<double> parameter_number(const Argument& value, const std::string& key,
                                        std::optional<Dimension>& dimension, Problems& problems) {
-  if (value.is_number()) return value.number();
-  if (!value.is_text()) {
-    if (!value.is_unknown())
-      problems.push_back(quoted(key) + " is " + value.describe() + "; give a number or a quantity");
+  const auto quantity = detail::read_any_quantity(value, key, "a number or a quantity", problems);
+  if (!quantity) return {};
+  if (value.is_number()) return quantity->value;
+  if (dimension && !(*dimension == quantity->dimension)) {
+    problems.push_back(quoted(key) + " is " + describe(quantity->dimension) +
+                       ", and another value of the parameter is " + describe(*dimension));
     return {};
   }
-  try {
-    const Quantity quantity = parse_quantity(value.text());
-    if (dimension && !(*dimension == quantity.dimension)) {
-      problems.push_back(quoted(key) + " is " + describe(quantity.dimension) +
-                         ", and another value of the parameter is " + describe(*dimension));
-      return {};
-    }
-    dimension = quantity.dimension;
-    return quantity.value;
-  } catch (const Error& error) {
-    problems.push_back(quoted(key) + ": " + error.what());
-    return {};
-  }
+  dimension = quantity->dimension;
+  return quantity->value;
 }
 
 struct NamedParameter {
@@ -124,8 +113,8 @@ void read_faces(const Argument& value, const OptionInfo& info, CalibrateKeys& ke
     value.each([&](const Argument& key, const Argument& list) {
       ++count;
       if (key.is_text()) keys.replicate = std::string(key.text());
-      for (std::int64_t k = 1; list.is_table() && k <= list.length(); ++k)
-        list.element(k, [&](const Argument& face) {
+      if (list.is_table())
+        list.elements([&](const Argument& face) {
           if (face.is_number()) keys.faces.push_back(face.number());
         });
     });
@@ -166,8 +155,6 @@ const Block<CalibrateKeys> calibrate_block{
          read_faces),
      u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
      where_key(&CalibrateKeys::where)}};
-
-// --- the model
 
 // The rows are on the stack.
 class CalibratedFunction {
@@ -226,15 +213,8 @@ class CalibratedFunction {
     lua_pushvalue(L, function_);
     push_checked(L, named(q), "the parameters of the model");
     lua_rawgeti(L, rows_, static_cast<lua_Integer>(row) + 1);
-    int status = LUA_OK;
-    {
-      const Session::Reporting reporting(session_, monitor_);
-      status = lua_pcall(L, 2, 1, 0);
-    }
-    if (status != LUA_OK) {
-      stop_flag().check();
-      throw failure_in(q, row, error_text(L, -1));
-    }
+    const Session::Reporting reporting(session_, monitor_);
+    if (const auto failure = failure_of_call(L, 2, 1)) throw failure_in(q, row, *failure);
     const Argument result(L, -1);
     if (result.is_nil()) return std::numeric_limits<double>::quiet_NaN();
     if (!result.is_number()) throw wrong_answer(q, row, result.describe());

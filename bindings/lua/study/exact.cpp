@@ -29,18 +29,13 @@ Option<PressedKeys> approach_key() {
   return quantity("approach", &PressedKeys::approach, dimension::length, above(0), "from first touch");
 }
 
-// --- hertz
-
 struct HertzKeys : PressedKeys {
   double radius = 0, modulus = 0;
   std::shared_ptr<JunctionLaw> law;
 };
 const Block<HertzKeys> hertz_block{
-    {Option<HertzKeys>(
-         quantity("radius", &HertzKeys::radius, dimension::length, above(0), "of the paraboloid"))
-         .required(),
-     Option<HertzKeys>(
-         quantity("modulus", &HertzKeys::modulus, dimension::pressure, above(0), "E* of the two bodies"))
+    {quantity("radius", &HertzKeys::radius, dimension::length, above(0), "of the paraboloid").required(),
+     quantity("modulus", &HertzKeys::modulus, dimension::pressure, above(0), "E* of the two bodies")
          .required(),
      load_key(), approach_key(),
      native<JunctionLaw>("friction", &HertzKeys::law, "Law", "a law, from lab.friction",
@@ -76,8 +71,6 @@ Values hertz(Call& call) {
   }
   return {hertz_type(h)};
 }
-
-// --- waves
 
 struct WaveKeys {
   double amplitude = 0, wavelength = 0, modulus = 0, pressure = 0;
@@ -115,8 +108,6 @@ Values crossed_waves(Call& call) {
   return {std::move(record)};
 }
 
-// --- persson
-
 struct PerssonKeys {
   double modulus = 0, rms_slope = 0, pressure = 0, hardness = std::numeric_limits<double>::infinity();
 };
@@ -139,14 +130,11 @@ Values persson(Call& call) {
   return {persson_type(exact::persson_area(k.modulus, k.rms_slope, k.pressure, k.hardness))};
 }
 
-// --- box elements
-
 struct BoxParaboloidKeys : PressedKeys {
   double radius = 0, stiffness = 0;
 };
 const Block<BoxParaboloidKeys> box_paraboloid_block{
-    {Option<BoxParaboloidKeys>(
-         quantity("radius", &BoxParaboloidKeys::radius, dimension::length, above(0), "of the paraboloid"))
+    {quantity("radius", &BoxParaboloidKeys::radius, dimension::length, above(0), "of the paraboloid")
          .required(),
      quantity("stiffness", &BoxParaboloidKeys::stiffness, dimension::stiffness, above(0), "of the elements")
          .required(),
@@ -166,8 +154,6 @@ Values box_paraboloid(Call& call) {
       keys.load ? exact::box_paraboloid_under_load(keys.radius, keys.stiffness, *keys.load)
                 : exact::box_paraboloid_at_approach(keys.radius, keys.stiffness, *keys.approach))};
 }
-
-// --- weierstrass_mandelbrot
 
 struct HeightKeys : WeierstrassMandelbrotOptions {
   int i = -1, j = -1;

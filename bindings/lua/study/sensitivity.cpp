@@ -147,8 +147,7 @@ Function sensitivity_function() {
               "GPa\", u=\"5 %\" } } })"};
 }
 
-template <>
-Class make_class<Sensitivity>() {
+Class make_class(For<Sensitivity>) {
   Class c{"Sensitivity", "a sensitivity",
           "Which uncertain input an answer hangs on. print() shows the table of shares."};
   c.describe = lines_of<Sensitivity>;

@@ -3,7 +3,6 @@
 #include "bindings/lua/study/asked_function.hpp"
 
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "bindings/lua/registry/options.hpp"
@@ -19,25 +18,22 @@ namespace asperity::lua {
 
 namespace {
 
-Value finite(double value) { return std::isfinite(value) ? Value(value) : Value(); }
-
 Values rows_of_study(Call& call) {
   const StudyResult& result = call.self<Study>().result;
   List list;
   for (const StudyRow& row : result.rows) {
     Map map = knobs_map(result.knobs_of(row));
-    const auto add = [&](const char* name, Value value) {
-      if (!value.is_nil()) map.items.emplace_back(name, std::move(value));
-    };
+    const auto add = [&](const char* name, Value value) { map.items.emplace_back(name, std::move(value)); };
     add("way", result.way_of(row).name);
-    add("value", finite(row.value));
-    add("error", finite(row.error));
-    add("absolute_error", finite(row.absolute_error));
-    add("held_error", finite(row.held_error));
-    add("seconds", finite(row.seconds));
-    add("seconds_low", finite(row.seconds_low));
-    add("seconds_high", finite(row.seconds_high));
-    add("first_seconds", finite(row.first_seconds));
+    for (const auto& [name, value] : {std::pair{"value", row.value},
+                                      {"error", row.error},
+                                      {"absolute_error", row.absolute_error},
+                                      {"held_error", row.held_error},
+                                      {"seconds", row.seconds},
+                                      {"seconds_low", row.seconds_low},
+                                      {"seconds_high", row.seconds_high},
+                                      {"first_seconds", row.first_seconds}})
+      if (std::isfinite(value)) map.items.emplace_back(name, value);
     add("runs", static_cast<std::int64_t>(row.runs.size()));
     add("failed", row.end == StudyRow::End::failed);
     add("left_out", row.end == StudyRow::End::left_out);
@@ -78,9 +74,6 @@ Values cheapest_setting(Call& call) {
 }
 
 std::string describe_study(const void* self) { return study_text(static_cast<const Study*>(self)->result); }
-std::string describe_choice(const StudyChoice& choice) {
-  return lua_source(choice.study->result.knobs_of(choice.found()));
-}
 
 }  // namespace
 
@@ -118,8 +111,7 @@ void record_result(RunDirectory* run, const std::string& name, const StudyResult
   if (!run->dry()) write_atomically(file, study_table(result).csv());
 }
 
-template <>
-Class make_class<Study>() {
+Class make_class(For<Study>) {
   Class c{"Study", "a study",
           "Result of a study of work and precision. print() shows its rows and the cheapest setting for 10 "
           "%, 1 % and 0.1 %."};
@@ -174,11 +166,12 @@ Class make_class<Study>() {
   return c;
 }
 
-template <>
-Class make_class<StudyChoice>() {
+Class make_class(For<StudyChoice>) {
   Class c{"StudyChoice", "a setting of a study",
           "A setting that a study chose. print() shows its knobs as Lua source, to be pasted."};
-  c.describe = text_of<describe_choice>;
+  c.describe = from_value([](const StudyChoice& choice) -> std::string {
+    return lua_source(choice.study->result.knobs_of(choice.found()));
+  });
   c.fields = {
       getter<StudyChoice>(
           "knobs", "table", "its knobs, as `ask` was given them",

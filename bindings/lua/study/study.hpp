@@ -29,10 +29,8 @@ struct StudyChoice {
   const StudyRow& found() const { return study->result.rows[row]; }
 };
 
-template <>
-Class make_class<Study>();
-template <>
-Class make_class<StudyChoice>();
+Class make_class(For<Study>);
+Class make_class(For<StudyChoice>);
 
 // Journal lines of a study; rows also in <name>.csv. Nothing without a run.
 void record_request(RunDirectory* run, const std::string& name, const StudyRequest& request);
@@ -42,12 +40,10 @@ void record_result(RunDirectory* run, const std::string& name, const StudyResult
 Function work_precision_function();
 
 Function budget_function();
-template <>
-Class make_class<Budget>();
+Class make_class(For<Budget>);
 
 Function sensitivity_function();
-template <>
-Class make_class<Sensitivity>();
+Class make_class(For<Sensitivity>);
 
 Function calibrate_function();
 

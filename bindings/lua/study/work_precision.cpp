@@ -15,19 +15,15 @@ namespace asperity::lua {
 
 namespace {
 
-// --- options
-
 struct StudyKeys : StudyRequest {
   std::string name = "work_precision";
   bool unknown = false;  // a dry run met an unknown knob
 };
 
 void read_way(const Argument& table, const std::string& path, StudyKeys& keys, Problems& problems) {
-  if (!table.is_table()) {
-    problems.push_back(quoted(path) + " is " + table.describe() +
-                       "; give a way such as { name=\"finer grid\", cells={128, 256} }");
-    return;
-  }
+  if (!table.is_table())
+    return detail::wrong_type(table, path, "a way such as { name=\"finer grid\", cells={128, 256} }",
+                              problems);
   std::string name;
   std::vector<KnobSweep> knobs;
   table.each([&](const Argument& key, const Argument& value) {
@@ -39,7 +35,7 @@ void read_way(const Argument& table, const std::string& path, StudyKeys& keys, P
     } else if (value.is_text() && !value.text().empty()) {
       name = value.text();
     } else {
-      problems.push_back(quoted(path + ".name") + " is " + value.describe() + "; give the way's name");
+      detail::wrong_type(value, path + ".name", "the way's name", problems);
       name = "?";
     }
   });
@@ -48,11 +44,7 @@ void read_way(const Argument& table, const std::string& path, StudyKeys& keys, P
     return;
   }
   if (!problems.empty()) return;
-  try {
-    keys.ways.push_back(make_way(std::move(name), std::move(knobs)));
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
+  detail::collect(problems, [&] { keys.ways.push_back(make_way(std::move(name), std::move(knobs))); });
 }
 
 void read_ways(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
@@ -68,30 +60,22 @@ void read_ways(const Argument& value, const OptionInfo& info, StudyKeys& keys, P
 }
 
 void read_truth(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
-  if (value.is_number()) {
-    keys.truth = value.number();
-  } else if (value.is_text()) {
-    try {
-      keys.truth = parse_quantity(value.text()).value;
-    } catch (const Error& error) {
-      problems.push_back(quoted(info.name) + ": " + error.what());
-    }
-  } else if (value.is_table()) {
+  if (value.is_table()) {
     Knobs knobs;
     value.each([&](const Argument& key, const Argument& item) {
       const auto read = knob_value(item, keys.unknown);
       if (!key.is_text())
         problems.push_back(quoted(info.name) + " holds a value without a key; write `knob = value`");
       else if (!read)
-        problems.push_back(quoted(info.name + "." + std::string(key.text())) + " is " + item.describe() +
-                           "; give " + knob_kinds);
+        detail::wrong_type(item, info.name + "." + std::string(key.text()), knob_kinds, problems);
       else
         knobs.push_back({std::string(key.text()), *read});
     });
     sort_knobs(knobs);
     keys.truth = std::move(knobs);
-  } else {
-    detail::wrong_type(value, info, "the exact value, or a table of the knobs of a finer setting", problems);
+  } else if (const auto exact = detail::read_any_quantity(
+                 value, info.name, "the exact value, or a table of the knobs of a finer setting", problems)) {
+    keys.truth = exact->value;
   }
 }
 
@@ -133,17 +117,9 @@ class LuaWork final : public StudyWork {
 
   StudyAnswer ask(const Knobs& knobs, Monitor& monitor) override {
     const int bottom = lua_gettop(L) - 2;
-    StudyAnswer answer;
-    {
-      const Session::Reporting reporting(session_, monitor);
-      if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
-        stop_flag().check();
-        answer.failure = error_text(L, -1);
-        lua_settop(L, bottom);
-        return answer;
-      }
-    }
-    answer = read_answer(L, knobs);
+    const Session::Reporting reporting(session_, monitor);
+    const auto failure = failure_of_call(L, 1, 2);
+    StudyAnswer answer = failure ? StudyAnswer{{}, *failure} : read_answer(L, knobs);
     lua_settop(L, bottom);
     return answer;
   }
@@ -160,11 +136,6 @@ class LuaWork final : public StudyWork {
   std::string name_;
 };
 
-std::string own_name(Session& session, const std::string& name) {
-  const int count = ++session.studies[name];
-  return count == 1 ? name : name + "-" + std::to_string(count);
-}
-
 // For the first setting only.
 Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
   if (!keys.unknown) {
@@ -172,11 +143,8 @@ Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
     LuaWork work(call, ask, keys.name);
     work.prepare(knobs);
     const int bottom = lua_gettop(call.L) - 2;
-    if (lua_pcall(call.L, 1, 2, 0) != LUA_OK) {
-      stop_flag().check();
-      throw Error(ErrorCode::bad_value,
-                  keys.ways.front().name + " " + lua_source(knobs) + ": " + error_text(call.L, -1));
-    }
+    if (const auto failure = failure_of_call(call.L, 1, 2))
+      throw Error(ErrorCode::bad_value, keys.ways.front().name + " " + lua_source(knobs) + ": " + *failure);
     if (!Argument(call.L, -2).is_unknown()) read_answer(call.L, knobs);
     lua_settop(call.L, bottom);
   }
@@ -194,7 +162,8 @@ Values work_precision(Call& call) {
   return with_key(call.argument(1), "ask", [&](const Argument& ask) -> Values {
     if (session.dry_run) return dry_study(call, keys, ask);
     auto study = std::make_shared<Study>();
-    study->name = own_name(session, keys.name);
+    const int count = ++session.studies[keys.name];
+    study->name = keys.name + (count == 1 ? "" : "-" + std::to_string(count));
     LuaWork work(call, ask, study->name);
     WorkPrecision runner(keys, work, session.monitor());
     record_request(session.run.get(), study->name, runner.result().request);

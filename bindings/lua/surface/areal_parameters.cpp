@@ -266,26 +266,13 @@ const RecordType<TipCutOffs> reliability_type{
      {"y", &TipCutOffs::y, dimension::length, "of stencils along y"},
      {"cut_off", [](const TipCutOffs& t) { return std::max(t.x, t.y); }, dimension::length,
       "the greater of the two"}}};
-Values reliability_of(Call& call) {
-  const ReliabilityKeys keys = call.options(reliability_block);
-  const Surface& surface = call.self<Surface>();
-  return {reliability_type(TipCutOffs{tip_cut_off(surface, ScaleAxis::x, keys.tip, keys.share),
-                                      tip_cut_off(surface, ScaleAxis::y, keys.tip, keys.share)})};
-}
 
 using RatioCurve = MaterialRatioCurve;
-std::string describe_curve(const RatioCurve& curve) {
-  return "material ratio curve of " + std::to_string(curve.measured()) + " heights";
-}
 
 double correlation_at(const Autocorrelation& f, const Call& call) {
   const double i = call.number(1, "i"), j = call.number(2, "j");
   if (i != std::floor(i) || j != std::floor(j)) refuse("a lag is not whole cells", "give whole numbers");
   return f(static_cast<int>(i), static_cast<int>(j));
-}
-std::string describe_correlation(const Autocorrelation& f) {
-  return "autocorrelation to lags of " + std::to_string(f.lags_x()) + " x " + std::to_string(f.lags_y()) +
-         " cells";
 }
 
 }  // namespace
@@ -319,7 +306,12 @@ std::vector<Function> parameter_methods() {
        .returns = "ScaleDependence",
        .example = "print(s:scale_dependence{ of=\"slope\" }.value[1])"},
       {.name = "reliability",
-       .body = reliability_of,
+       .body = [](Call& call) -> Values {
+         const ReliabilityKeys keys = call.options(reliability_block);
+         const Surface& surface = call.self<Surface>();
+         return {reliability_type(TipCutOffs{tip_cut_off(surface, ScaleAxis::x, keys.tip, keys.share),
+                                             tip_cut_off(surface, ScaleAxis::y, keys.tip, keys.share)})};
+       },
        .sentence = "Smallest scale at which a spherical tip can have measured the map.",
        .options = &reliability_block,
        .returns = "Reliability",
@@ -329,8 +321,7 @@ std::vector<Function> parameter_methods() {
 
 std::vector<const RecordInfo*> parameter_results() { return {&scale_dependence_type(), &reliability_type}; }
 
-template <>
-Class make_class<ArealParameters>() {
+Class make_class(For<ArealParameters>) {
   Class c{"ArealParameters", "areal parameters",
           "The areal parameters of a map (ISO 25178-2), of the points that were measured. One that the map "
           "does not define is nil: why_not says why."};
@@ -354,11 +345,12 @@ Class make_class<ArealParameters>() {
   return c;
 }
 
-template <>
-Class make_class<MaterialRatioCurve>() {
+Class make_class(For<MaterialRatioCurve>) {
   Class c{"MaterialRatioCurve", "a material ratio curve",
           "Share of the points above each height; heights count from the mean, ratios from 0 to 1."};
-  c.describe = text_of<describe_curve>;
+  c.describe = from_value([](const RatioCurve& curve) -> std::string {
+    return "material ratio curve of " + std::to_string(curve.measured()) + " heights";
+  });
   c.native_bytes = from_value([](const RatioCurve& curve) { return curve.measured() * sizeof(double); });
   c.fields = {
       getter<&RatioCurve::measured>("measured", "integer", "points that were measured"),
@@ -399,11 +391,13 @@ Class make_class<MaterialRatioCurve>() {
   return c;
 }
 
-template <>
-Class make_class<Autocorrelation>() {
+Class make_class(For<Autocorrelation>) {
   Class c{"Autocorrelation", "an autocorrelation",
           "The autocorrelation of a surface at lags of whole cells, 1 at the origin."};
-  c.describe = text_of<describe_correlation>;
+  c.describe = from_value([](const Autocorrelation& f) -> std::string {
+    return "autocorrelation to lags of " + std::to_string(f.lags_x()) + " x " + std::to_string(f.lags_y()) +
+           " cells";
+  });
   c.native_bytes = from_value([](const Autocorrelation& f) {
     return (2 * static_cast<std::size_t>(f.lags_x()) + 1) * (static_cast<std::size_t>(f.lags_y()) + 1) *
            sizeof(double);

@@ -45,21 +45,18 @@ Values field_picture(Call& call) {
   return {path};
 }
 
-std::string describe_field(const NamedField& f) {
-  const Range r = known_range(f.values->values());
-  return f.name + " field " + std::to_string(f.grid.nx) + " x " + std::to_string(f.grid.ny) + ", from " +
-         format_quantity(r.min, f.dimension) + " to " + format_quantity(r.max, f.dimension);
-}
-
 }  // namespace
 
-template <>
-Class make_class<NamedField>() {
+Class make_class(For<NamedField>) {
   using F = NamedField;
   Class c{"Field", "a field",
           "A quantity at every node of the tile; nan where it is missing, as the gap is where nothing faces "
           "the lower body."};
-  c.describe = text_of<describe_field>;
+  c.describe = from_value([](const NamedField& f) -> std::string {
+    const Range r = known_range(f.values->values());
+    return f.name + " field " + std::to_string(f.grid.nx) + " x " + std::to_string(f.grid.ny) + ", from " +
+           format_quantity(r.min, f.dimension) + " to " + format_quantity(r.max, f.dimension);
+  });
   c.native_bytes = from_value([](const NamedField& of) { return of.values->size() * sizeof(double); });
   c.fields = {
       getter<&F::name>("name", "string", "what it is"),

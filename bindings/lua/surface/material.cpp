@@ -55,8 +55,7 @@ Function material_function() {
           .example = "local al = lab.material \"Al-2011\""};
 }
 
-template <>
-Class make_class<Material>() {
+Class make_class(For<Material>) {
   return {
       .name = "Material",
       .article_name = "a material",

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "bindings/lua/registry/guard.hpp"
@@ -42,6 +41,31 @@ std::vector<RecordField<Roughness>> roughness_fields(bool areal) {
   fields.emplace_back("measured", &R::measured, measured_sentence);
   return fields;
 }
+
+std::vector<Option<FractalDimensionOptions>> fractal_dimension_options() {
+  using O = FractalDimensionOptions;
+  return {
+      choice("method", &O::method,
+             {{"length", DimensionMethod::length},
+              {"psd", DimensionMethod::psd},
+              {"structure", DimensionMethod::structure},
+              {"box", DimensionMethod::box},
+              {"madogram", DimensionMethod::madogram}},
+             "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
+             "function, box counting or madogram; the `lengths` of the result are what the method measures "
+             "at each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse points "
+             "not measured"),
+      integers("steps", &O::steps, 2, 1 << 30, "steps in samples, e.g. {1, 2, 4, 8, 16}")
+          .defaults_to("{1, 2, 4, 8, 16}"),
+      flag("offsets", &O::offsets, "method length: average over all starting points"),
+      quantity("tip", &O::tip, dimension::length, above(0),
+               "radius of the tip that traced it: steps below its reliability cut-off are not believed"),
+      flag("pooled", &O::pooled,
+           "one line through the average over profiles instead of the mean of each one's D"),
+      flag("wrap", &O::wrap, "steps continue across the rim").defaults_to("false"),
+  };
+}
+
 }  // namespace
 
 const RecordType<Roughness> profile_roughness_type{
@@ -105,32 +129,6 @@ const Block<SpectrumOptions> spectrum_block{
             "taper towards the rim; automatic: none for periodic surfaces, otherwise hann"),
      integer("bins", &SpectrumOptions::bins, at_least(0),
              "shells of equal ratio; 0: one a multiple of the fundamental")}};
-
-namespace {
-std::vector<Option<FractalDimensionOptions>> fractal_dimension_options() {
-  using O = FractalDimensionOptions;
-  return {
-      choice("method", &O::method,
-             {{"length", DimensionMethod::length},
-              {"psd", DimensionMethod::psd},
-              {"structure", DimensionMethod::structure},
-              {"box", DimensionMethod::box},
-              {"madogram", DimensionMethod::madogram}},
-             "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
-             "function, box counting or madogram; the `lengths` of the result are what the method measures "
-             "at each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse points "
-             "not measured"),
-      integers("steps", &O::steps, 2, 1 << 30, "steps in samples, e.g. {1, 2, 4, 8, 16}")
-          .defaults_to("{1, 2, 4, 8, 16}"),
-      flag("offsets", &O::offsets, "method length: average over all starting points"),
-      quantity("tip", &O::tip, dimension::length, above(0),
-               "radius of the tip that traced it: steps below its reliability cut-off are not believed"),
-      flag("pooled", &O::pooled,
-           "one line through the average over profiles instead of the mean of each one's D"),
-      flag("wrap", &O::wrap, "steps continue across the rim").defaults_to("false"),
-  };
-}
-}  // namespace
 
 const Block<FractalDimensionOptions> profile_fractal_dimension_block{fractal_dimension_options()};
 const Block<FractalDimensionOptions> areal_fractal_dimension_block{[] {

@@ -106,24 +106,19 @@ Option<MaskKeys> mask_key(const char* type, const char* sentence, ReadMask read_
 }
 
 Option<MaskKeys> outliers_key() {
-  auto option =
-      custom<MaskKeys>("outliers", "\"mad\"|table",
-                       "outliers by this rule, as s:outliers finds them, count as not measured; their number "
-                       "is told in a warning: the rule, or a table with its keys",
-                       [](const Argument& value, const OptionInfo& info, MaskKeys& keys, Problems& problems) {
-                         if (value.is_text()) {
-                           if (detail::read_word(value, info, {"mad"}, problems))
-                             keys.outliers = OutlierKeys{};
-                           return;
-                         }
-                         if (!value.is_table())
-                           return detail::wrong_type(value, info, "\"mad\" or a table of its keys", problems);
-                         try {
-                           keys.outliers = outliers_block.read(value, quoted(info.name));
-                         } catch (const Error& error) {
-                           problems.push_back(error.what());
-                         }
-                       });
+  auto option = custom<MaskKeys>(
+      "outliers", "\"mad\"|table",
+      "outliers by this rule, as s:outliers finds them, count as not measured; their number "
+      "is told in a warning: the rule, or a table with its keys",
+      [](const Argument& value, const OptionInfo& info, MaskKeys& keys, Problems& problems) {
+        if (value.is_text()) {
+          if (detail::read_word(value, info, {"mad"}, problems)) keys.outliers = OutlierKeys{};
+          return;
+        }
+        if (!value.is_table())
+          return detail::wrong_type(value, info, "\"mad\" or a table of its keys", problems);
+        detail::collect(problems, [&] { keys.outliers = outliers_block.read(value, quoted(info.name)); });
+      });
   option.info.inner = &outliers_block;
   return std::move(option).shown_by([](const MaskKeys& keys) -> std::string {
     if (!keys.outliers) return "";

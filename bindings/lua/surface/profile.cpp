@@ -52,12 +52,6 @@ struct ProfilePictureKeys {
 };
 const Block<ProfilePictureKeys> profile_picture_block{
     {text("title", &ProfilePictureKeys::title, "above the picture")}};
-Values picture_of_profile(Call& call) {
-  const ProfilePictureKeys keys = call.options(profile_picture_block, 2);
-  const std::string path = writable_path(call, call.text(1, "path"));
-  warn_of(call, draw(call.self<Profile>(), keys.title, path));
-  return {path};
-}
 
 Values write_profile(Call& call) {
   const Profile& profile = call.self<Profile>();
@@ -73,20 +67,18 @@ const Block<ReadProfileOptions> read_profile_block{
      fill_key(&ReadProfileOptions::fill), format_key(&ReadProfileOptions::format),
      channel_key(&ReadProfileOptions::channel)}};
 
-std::string describe_profile(const Profile& p) {
-  return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
-         format_quantity(p.length(), dimension::length) + " long, peak to valley " +
-         format_quantity(p.height_range().span(), dimension::length) +
-         missing_text(p.measured(), static_cast<std::size_t>(p.size()));
-}
 }  // namespace
 
 // data table
-template <>
-Class make_class<Profile>() {
+Class make_class(For<Profile>) {
   Class c{"Profile", "a profile",
           "Heights at equal spacing along a line, or once around a closed outline; an immutable value."};
-  c.describe = text_of<describe_profile>;
+  c.describe = from_value([](const Profile& p) -> std::string {
+    return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
+           format_quantity(p.length(), dimension::length) + " long, peak to valley " +
+           format_quantity(p.height_range().span(), dimension::length) +
+           missing_text(p.measured(), static_cast<std::size_t>(p.size()));
+  });
   c.native_bytes = from_value([](const Profile& p) { return p.measured_heights().size_bytes(); });
   c.equal = have_one_digest<Profile>;
   c.digest = text_of<&Profile::digest>;
@@ -159,7 +151,12 @@ Class make_class<Profile>() {
        .returns = "Profile",
        .example = "p:cut{ fraction=0.2 }"},
       {.name = "picture",
-       .body = picture_of_profile,
+       .body = [](Call& call) -> Values {
+         const ProfilePictureKeys keys = call.options(profile_picture_block, 2);
+         const std::string path = writable_path(call, call.text(1, "path"));
+         warn_of(call, draw(call.self<Profile>(), keys.title, path));
+         return {path};
+       },
        .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg, .png or .pdf.",
        .parameters = {{"path", "string", "under the run directory"}},
        .options = optional(profile_picture_block),

@@ -10,10 +10,9 @@ namespace asperity::lua {
 namespace {
 
 const Block<RegistrationOptions> registration_block{
-    {Option<RegistrationOptions>(
-         quantity("angle", &RegistrationOptions::angle, dimension::angle, at_least(0),
-                  "greatest turn that is looked for, to either side; from half a turn on the whole circle, "
-                  "which takes some ten times as long as a few degrees"))
+    {quantity("angle", &RegistrationOptions::angle, dimension::angle, at_least(0),
+              "greatest turn that is looked for, to either side; from half a turn on the whole circle, "
+              "which takes some ten times as long as a few degrees")
          .defaults_to("\"360 deg\""),
      quantity("at_most", &RegistrationOptions::at_most, dimension::length, above(0),
               "greatest `shift` that is looked for; without it whatever leaves a tenth of the maps on top of "
@@ -79,12 +78,6 @@ const RecordType<Registration> registration_type{
      {"second_best", &Registration::second_best,
       "the same of the best placement elsewhere, on coarser maps; near to `explained` it is a warning"}}};
 
-Values register_to(Call& call) {
-  const Surface& before = call.object<Surface>(1, "before");
-  const RegistrationOptions options = call.options(registration_block, 2);
-  return {registration_type(registered(call.self<Surface>(), before, options, call.session().monitor()))};
-}
-
 }  // namespace
 
 std::vector<const RecordInfo*> registration_types() {
@@ -95,7 +88,12 @@ std::vector<const RecordInfo*> registration_types() {
 Function registered_to_method() {
   return {
       .name = "registered_to",
-      .body = register_to,
+      .body = [](Call& call) -> Values {
+        const Surface& before = call.object<Surface>(1, "before");
+        const RegistrationOptions options = call.options(registration_block, 2);
+        return {
+            registration_type(registered(call.self<Surface>(), before, options, call.session().monitor()))};
+      },
       .sentence =
           "Registered to an earlier map of the same surface: shift, turn and tilt are found through wear, "
           "noise and holes, and nothing is stretched. Wear removes height: points lower than before do not "

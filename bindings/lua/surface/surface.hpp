@@ -19,10 +19,8 @@
 
 namespace asperity::lua {
 
-template <>
-Class make_class<Surface>();
-template <>
-Class make_class<Profile>();
+Class make_class(For<Surface>);
+Class make_class(For<Profile>);
 
 Module surface_module();
 Module profile_module();
@@ -39,12 +37,9 @@ std::vector<const RecordInfo*> registration_types();
 // their record types.
 std::vector<Function> parameter_methods();
 std::vector<const RecordInfo*> parameter_results();
-template <>
-Class make_class<ArealParameters>();
-template <>
-Class make_class<MaterialRatioCurve>();
-template <>
-Class make_class<Autocorrelation>();
+Class make_class(For<ArealParameters>);
+Class make_class(For<MaterialRatioCurve>);
+Class make_class(For<Autocorrelation>);
 
 // p:profile_parameters{...}, p:primary_parameters{...} and p:bearing().
 std::vector<Function> profile_parameter_methods();
@@ -59,8 +54,7 @@ const RecordInfo& outliers_type(bool surface);
 std::string missing_text(std::size_t measured, std::size_t points);
 
 // Materials, and keys of surface generators: `cells`, `size`, `material`.
-template <>
-Class make_class<Material>();
+Class make_class(For<Material>);
 
 // Defined in material.cpp.
 Function material_function();
@@ -92,8 +86,7 @@ struct NamedField {
   Dimension dimension;
 };
 
-template <>
-Class make_class<NamedField>();
+Class make_class(For<NamedField>);
 
 // Picture options of surfaces and fields.
 extern const Block<PictureOptions> picture_block;

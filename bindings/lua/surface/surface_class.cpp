@@ -60,8 +60,7 @@ std::string describe_surface(const Surface& s) {
 }  // namespace
 
 // data table
-template <>
-Class make_class<Surface>() {
+Class make_class(For<Surface>) {
   Class c{"Surface", "a surface",
           "Heights on a regular grid of cells; an immutable value whose methods return new ones."};
   c.describe = text_of<describe_surface>;

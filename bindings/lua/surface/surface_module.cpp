@@ -98,8 +98,7 @@ Values flat_body(Call& call) {
 struct SphereKeys : GridKeys, SphereOptions {};
 const Block<SphereKeys> sphere_block{
     {cells_key().required(), size_key().required(),
-     Option<SphereKeys>(
-         quantity("radius", &SphereOptions::radius, dimension::length, above(0), "radius of curvature"))
+     quantity("radius", &SphereOptions::radius, dimension::length, above(0), "radius of curvature")
          .required(),
      choice("shape", &SphereOptions::shape,
             {{"sphere", SphereShape::sphere}, {"paraboloid", SphereShape::paraboloid}},
