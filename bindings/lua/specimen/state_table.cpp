@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
