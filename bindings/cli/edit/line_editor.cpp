@@ -5,6 +5,7 @@
 
 #include <clocale>
 #include <cstdio>
+#include <cstring>
 #include <string>
 
 namespace {
