@@ -5,7 +5,7 @@
 --! error: check_old_names.lua:18: notebook:histogram: histogram takes the column first; write t:histogram("mu"
 --! error: check_old_names.lua:19: protocol:apply: a state has no field `contacts`, which is called `nodes_in_contact` now
 --! error: check_old_names.lua:20: a state has no field `contacts`, which is called `nodes_in_contact` now
---! error: check_old_names.lua:21: contact:sweep:table: a state has no field `contacts`, which is called `nodes_in_contact` now
+--! error: check_old_names.lua:21: a state has no field `contacts`, which is called `nodes_in_contact` now
 --! error: column `pressure` is a pressure, and `um` is a unit of a length
 --! error: check_old_names.lua:23: a probe result has no field `contacts`, which is called `nodes_in_contact` now
 local lab = require "asperity"
