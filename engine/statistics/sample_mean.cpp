@@ -150,8 +150,9 @@ std::vector<GroupMean> means_of(const Table& table, const std::string& column,
   for (std::size_t row = 0; row < table.rows(); ++row) {
     std::vector<Cell> cells;
     for (const std::size_t place : places) cells.push_back(table.cell(row, place));
-    auto group = std::ranges::find_if(
-        groups, [&](const Group& g) { return std::ranges::equal(g.cells, cells, same_cell); });
+    auto group = std::ranges::find_if(groups, [&](const Group& g) {
+      return std::equal(g.cells.begin(), g.cells.end(), cells.begin(), cells.end(), same_cell);
+    });
     if (group == groups.end()) group = groups.insert(groups.end(), {std::move(cells), {}});
     const bool known = next < numbers.rows.size() && numbers.rows[next] == row;
     group->values.push_back(known ? numbers.values[0][next] : std::numeric_limits<double>::quiet_NaN());
