@@ -158,8 +158,7 @@ std::vector<GroupMean> means_of(const Table& table, const std::string& column,
     group->values.push_back(known ? numbers.values[0][next] : std::numeric_limits<double>::quiet_NaN());
     if (known) ++next;
   }
-  std::ranges::stable_sort(groups,
-                           [](const Group& a, const Group& b) { return cells_before(a.cells, b.cells); });
+  std::ranges::stable_sort(groups, cells_before, &Group::cells);
   std::vector<GroupMean> means;
   for (Group& group : groups) {
     const bool none = std::ranges::none_of(group.values, [](double v) { return std::isfinite(v); });
