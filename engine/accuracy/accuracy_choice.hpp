@@ -38,7 +38,7 @@ State held_to(const State& state, const ChosenAccuracy& chosen, const Scene& sce
 
 // Tolerance of a first try, if an error is requested.
 Accuracy before_choice(Accuracy accuracy);
-// In place of a requested error.
+// A tolerance replaces a requested error.
 Accuracy with_tolerance(Accuracy accuracy, double tolerance);
 Accuracy without_companion(Accuracy accuracy);
 

@@ -62,7 +62,7 @@ struct Function {
   Listing (*listing)() = nullptr;
   // In a dry run, for arguments with placeholders, after the options; may be null.
   void (*look)(const Call& call) = nullptr;
-  // In a dry run, on :table{…} of the returned iterator; null without :table.
+  // In a dry run, checks the columns given to :table of the returned iterator; null without :table.
   void (*look_at_table)(const Call& call) = nullptr;
 };
 

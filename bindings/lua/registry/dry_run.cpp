@@ -69,7 +69,7 @@ int refuse_unknown(lua_State* L) {
 
 Record record_placeholder(const RecordInfo& type);
 
-// Of the placeholder at `index`: a record of an unknown list, otherwise unknown.
+// Pushes an item of the placeholder at `index`: a record if the list has a known type, else a placeholder.
 void push_item(lua_State* L, int index) {
   const RecordInfo* item = nullptr;
   if (block_at(L, index, &unknown_key) != nullptr) {
@@ -87,7 +87,7 @@ int index_unknown(lua_State* L) {
   return 1;
 }
 
-// Upvalues: the placeholder, and whether the loop has run.
+// Iterates once. Upvalues: the placeholder, and whether its item was given.
 int unknown_once(lua_State* L) {
   if (lua_toboolean(L, lua_upvalueindex(2)) != 0) return lua_pushnil(L), 1;
   lua_pushboolean(L, 1);

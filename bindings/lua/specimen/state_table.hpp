@@ -56,7 +56,7 @@ class StateTable {
 Value table_of_states(Call& call, const std::shared_ptr<SpecimenPair>& pair,
                       const std::function<std::optional<Values>()>& turn);
 
-// The same in a dry run.
+// For :table in a dry run: throws an Error that lists the mistakes of all columns.
 void look_at_columns_of_states(const Call& call);
 
 }  // namespace asperity::lua

@@ -15,7 +15,7 @@ namespace asperity {
 
 // Metres per unit at the end of a text, such as "Height (nm)"; none if unknown.
 std::optional<double> length_unit(std::string_view text);
-// Of the whole text, and case matters: "m" of "x_m" is a unit, "a" of "x_a" is not.
+// The same for a whole text, with its case: "m" (in "x_m") is a unit, "a" (in "x_a") is not.
 std::optional<double> exact_unit(std::string_view text);
 
 // Without comment marks (# or %) and blanks around.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What readers of instrument files share: numbers of text headers, and the choice among several maps.
+// Shared by the readers of instrument files: numbers of text headers, and the choice among several maps.
 #pragma once
 
 #include <cstdint>
