@@ -139,6 +139,7 @@ test('Prompt, ShowsValuesAndErrorsAndAnswersQuestions', () =>
     await enter('help "how do I turn"', 'contact:rotate');
     await enter('who', 's  surface 64 x 64 cells');
     await enter('exit', 'the session has ended');
+    assert.ok(await page.$('.prompt [aria-label="Save kept.csv"]'), 'files stay until another session begins');
     await enter('s', 'was never set');
     await page.type('.prompt input', 'while true do end\n');
     await on.until(page, () => !document.querySelector('.prompt button').disabled, 'the loop should run');

@@ -260,13 +260,23 @@ export class Laboratory implements Api {
 
   /** A session of the prompt, which reads the given files. */
   prompt = (take: (line: Line) => void): Lines => {
+    const made: Files = new Map();
+    const given: Files = new Map();
     const bench = Bench.for((t) => {
       if ('stream' in t) take(t);
       if ('failure' in t) take({ stream: 'err', text: `the module ended: ${t.failure}\n` });
-      if ('failure' in t) take({ next: 'end', files: new Map() });
-      if ('taken' in t) take({ next: (['line', 'more'] as const)[t.taken] ?? 'end', files: t.files });
+      if ('failure' in t) take({ next: 'end', files: made });
+      if ('taken' in t) {
+        t.files.forEach((bytes, path) => made.set(path, bytes));
+        take({ next: (['line', 'more'] as const)[t.taken] ?? 'end', files: made });
+      }
     });
-    return { enter: (line) => bench.give({ line, files: this.given }), end: () => bench.end() };
+    const enter = (line: string): void => {
+      const files = new Map([...this.given].filter(([path, bytes]) => given.get(path) !== bytes));
+      files.forEach((bytes, path) => given.set(path, bytes));
+      bench.give({ line, files });
+    };
+    return { enter, end: () => bench.end() };
   };
 
   stop = (id: string): Promise<unknown> => this.of(id).then((run) => run.stop());

@@ -9,7 +9,7 @@ export type Task =
   | { ask: string } // JSON, as bindings/wasm/page.cpp takes it
   | { run: string; files: Files } // JSON
   | { replay: string; files: Files } // a run directory
-  | { line: string; files: Files } // of the prompt
+  | { line: string; files: Files } // of the prompt, with the files given since the line before
   | { move: string }; // JSON
 
 export type Told =
@@ -19,6 +19,7 @@ export type Told =
   | { stream: 'out' | 'err'; text: string }
   | { facts: string; numbers: Float32Array[] } // of a live script
   | { moved: true }
-  | { taken: number; files: Files } // a line of the prompt; 1: the statement goes on, from 2: the session has ended
+  // A line of the prompt, with the files that changed; 1: the statement goes on, from 2: the session has ended.
+  | { taken: number; files: Files }
   | { exit: number; files: Files }
   | { failure: string }; // the module is lost

@@ -8,7 +8,7 @@ interface Folder {
   mkdir(path: string): void;
   chdir(path: string): void;
   readdir(path: string): string[];
-  stat(path: string): { mode: number };
+  stat(path: string): { mode: number; mtime: Date };
   isDir(mode: number): boolean;
   readFile(path: string): Uint8Array;
   writeFile(path: string, bytes: Uint8Array): void;
@@ -90,13 +90,19 @@ function module(): Promise<Module> {
   return instance;
 }
 
-/** Without hidden files. */
-function filesIn(fs: Folder, folder: string, found: Files = new Map(), under = ''): Files {
+const toldFiles = new Map<string, number>(); // with the time of their last change
+
+/** Files that changed since the last call, without hidden files. */
+function changedFiles(fs: Folder, folder: string, found: Files = new Map(), under = ''): Files {
   for (const name of fs.readdir(folder)) {
     if (name.startsWith('.')) continue;
     const path = `${folder}/${name}`;
-    if (fs.isDir(fs.stat(path).mode)) filesIn(fs, path, found, `${under}${name}/`);
-    else found.set(under + name, fs.readFile(path));
+    const { mode, mtime } = fs.stat(path);
+    if (fs.isDir(mode)) changedFiles(fs, path, found, `${under}${name}/`);
+    else if (toldFiles.get(path) !== mtime.getTime()) {
+      toldFiles.set(path, mtime.getTime());
+      found.set(under + name, fs.readFile(path));
+    }
   }
   return found;
 }
@@ -134,13 +140,13 @@ async function work(task: Task): Promise<void> {
       let taken = 2; // os.exit ends the session
       status(() => (taken = lab.ccall('asperity_line', 'number', ['string'], [task.line]) as number));
       tellOutput();
-      scope.postMessage({ taken, files: filesIn(lab.FS, runFolder) });
+      scope.postMessage({ taken, files: changedFiles(lab.FS, runFolder) });
       return;
     }
     const [act, asked] = 'run' in task ? ['asperity_run', task.run] : ['asperity_replay', task.replay];
     const exit = status(() => lab.ccall(act, 'number', ['string'], [asked]));
     tellOutput();
-    scope.postMessage({ exit, files: filesIn(lab.FS, runFolder) });
+    scope.postMessage({ exit, files: changedFiles(lab.FS, runFolder) });
   }
 }
 
