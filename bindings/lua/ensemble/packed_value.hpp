@@ -102,7 +102,6 @@ class PackedValue final : public StoredValue {
   static Array<Entry> in_order(Array<Entry> entries);
 
   struct Pusher;
-  struct RowDigest;
   struct Writer;
   struct Reader;
   struct ContentDigest;

@@ -81,79 +81,9 @@ Array<PackedValue::Entry> PackedValue::in_order(Array<Entry> entries) {
   return entries;
 }
 
-struct PackedValue::RowDigest : ValueVisitor {
-  const PackedValue& packed;
-  Digester digester{};
-  MetOrder nodes{packed.nodes_.size()};
-  const Value* value = nullptr;
-
-  explicit RowDigest(const PackedValue& row) : packed(row) {}
-
-  void begin(const Value& visited) { value = &visited; }
-  using ValueVisitor::enter;
-  void enter(const Record& record) { digester.add(record.name); }
-  void enter(const List& list) { digester.add(static_cast<std::int64_t>(list.items.size())); }
-  bool under(const std::string& name) {
-    digester.add(name);
-    return true;
-  }
-  void leaf(const Object& object) {
-    digester.add(object.type->name);
-    if (object.pointer == nullptr)
-      digester.add("");
-    else if (object.type->digest != nullptr)
-      digester.add(object.type->digest(object.pointer.get()));
-    else
-      digester.add(object.type->describe != nullptr ? object.type->describe(object.pointer.get()) : "");
-  }
-  void leaf(std::int64_t number) { digester.add(number); }
-  void leaf(double number) { digester.add(number); }
-  void leaf(const Value::Numbers& numbers) { digester.add(std::span<const double>(*numbers)); }
-  void leaf(const Value::Rows& rows) { digester.add(rows->values()); }
-  void leaf(const auto&) { digester.add(show(*value)); }
-
-  void add(const Item& item) {
-    digester.add(static_cast<int>(item.index()));  // distinguishes "1" from 1
-    std::visit(
-        [&](const auto& held) {
-          using Held = std::decay_t<decltype(held)>;
-          if constexpr (std::is_same_v<Held, bool>) {
-            digester.add(held ? 1 : 0);
-          } else if constexpr (std::is_same_v<Held, std::int64_t> || std::is_same_v<Held, double> ||
-                               std::is_same_v<Held, std::string>) {
-            digester.add(held);
-          } else if constexpr (std::is_same_v<Held, NodeId>) {
-            if (const Value* native = std::get_if<Value>(&packed.nodes_[held.index]))
-              visit_value(*native, *this);
-            else
-              digester.add(nodes.number(held.index));
-          } else {
-            digester.add("?");
-          }
-        },
-        item);
-  }
-
-  std::string all() {
-    add(packed.root_);
-    while (const auto node = nodes.next()) {
-      const Table* table = std::get_if<Table>(&packed.nodes_[*node]);
-      if (table == nullptr) continue;
-      digester.add(static_cast<std::int64_t>(table->entries.size()));
-      for (const Entry& entry : in_order(table->entries)) {
-        add(entry.key);
-        add(entry.value);
-      }
-    }
-    return digester.hex();
-  }
-};
-
-std::string PackedValue::digest() const { return RowDigest(*this).all(); }
-
 struct PackedValue::ContentDigest : ValueVisitor {
   const PackedValue& packed;
-  const ScriptSpelling& spelling;
+  ScriptSpelling spelling;
   Digester digester{}, lines{};
   bool whole = true;
   MetOrder nodes{packed.nodes_.size()}, cells{packed.cells_.size()};
@@ -315,9 +245,14 @@ struct PackedValue::ContentDigest : ValueVisitor {
     }
   }
 
-  Content all() {
+  std::string of_data() {
     add(packed.root_);
     everything_reached();
+    return digester.hex();
+  }
+
+  Content all() {
+    of_data();
     digester.add(packed.strict_globals_ ? 1 : 0);
     std::vector<const Addition*> additions;
     for (const Addition& addition : packed.additions_) additions.push_back(&addition);
@@ -349,6 +284,8 @@ struct PackedValue::ContentDigest : ValueVisitor {
     return {digester.hex(), lines.hex(), whole};
   }
 };
+
+std::string PackedValue::digest() const { return ContentDigest(*this, {}).of_data(); }
 
 PackedValue::Content PackedValue::content(const ScriptSpelling& spelling) const {
   return ContentDigest(*this, spelling).all();
