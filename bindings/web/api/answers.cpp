@@ -4,10 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <sstream>
 #include <utility>
 
 #include "bindings/web/api/script_answers.hpp"

@@ -8,7 +8,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -20,7 +19,6 @@
 #include "bindings/web/api/lesson_folder.hpp"
 #include "bindings/web/api/script_answers.hpp"
 #include "bindings/web/confined/event_channel.hpp"
-#include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"

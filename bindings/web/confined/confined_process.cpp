@@ -15,7 +15,6 @@
 #include <csignal>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 #include "bindings/cli/disk_bound.hpp"
 #include "bindings/web/sandbox/frames.hpp"

@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"

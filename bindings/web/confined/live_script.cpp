@@ -5,15 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/watchdog.hpp"

@@ -13,7 +13,6 @@
 
 #include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 
