@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -45,6 +46,19 @@ constexpr const char* open_page = "open.html";
 constexpr int usual_port = 8137;  // fixed: browsers store edits by address
 
 constexpr int most_students = 400;
+
+struct ServeCommand {
+  int port = 0;                              // 0: any free port
+  bool open = false;                         // in this machine's browser
+  std::string classroom;                     // "": this machine only
+  int students = 0;                          // number
+  std::string names;                         // one name a line
+  std::string lessons;                       // a folder; "": those of the program
+  std::string out;                           // "": runs/serve-<n>
+  int runs = 0;                              // 0: by machine
+  std::optional<double> limit_time;          // seconds for a run
+  std::optional<std::int64_t> limit_memory;  // bytes for a run
+};
 
 bool is_v6(const std::string& address) {
   in6_addr parsed{};
@@ -258,28 +272,22 @@ void allow_many_files() {
   ::setrlimit(RLIMIT_NOFILE, &files);
 }
 
-void print_addresses(const ServeCommand& command, const Access& access, int port) {
-  const std::string begin = "http://" + shown_address(command) + ":" + std::to_string(port) + "/#";
+// `begin`: of each address, before the token.
+void print_addresses(const std::string& begin, const std::vector<Person>& people, bool room) {
   std::size_t widest = 0;
-  for (const Person& person : access.people()) widest = std::max(widest, person.name.size());
-  if (command.classroom.empty()) {
-    std::printf("%s%s\n", begin.c_str(), access.people()[0].token.c_str());
+  for (const Person& person : people) widest = std::max(widest, person.name.size());
+  if (!room) {
+    std::printf("%s%s\n", begin.c_str(), people[0].token.c_str());
   } else {
     std::printf(
         "one address for each; it is a key, and the part after the # is not sent over the network by "
         "itself\n\n");
-    for (const Person& person : access.people())
+    for (const Person& person : people)
       std::printf("%-*s  %s%s\n", static_cast<int>(widest), person.name.c_str(), begin.c_str(),
                   person.token.c_str());
     std::printf("\n");
   }
   std::fflush(stdout);
-}
-
-void wait_for_end(const sigset_t& signals) {
-  int signal = 0;
-  while (::sigwait(&signals, &signal) != 0) {
-  }
 }
 
 // Removes `folder` without recorded runs, or names it.
@@ -293,7 +301,7 @@ void clean_up(const fs::path& folder, const fs::path& scratch) {
     std::fprintf(stderr, "the records of the runs are in %s\n", folder.c_str());
 }
 
-int serve_until_stopped(const ServeCommand& command) {
+int serve(const ServeCommand& command) {
   const sigset_t& signals = cli::stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // threads inherit the mask
   std::signal(SIGPIPE, SIG_IGN);
@@ -329,7 +337,8 @@ int serve_until_stopped(const ServeCommand& command) {
                                       access, runs, live, page, shared_folder("site", "build/site"));
 
   std::thread answering([&] { server->serve(); });
-  print_addresses(command, access, server->port());
+  const std::string begin = "http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#";
+  print_addresses(begin, people, room);
   if (!page.built()) std::fprintf(stderr, "asperity: %s; until then /api is served alone\n", page_needs);
   std::fprintf(stderr, "runs are stored in %s; %d at once, each at most %.0f s and %.0f MiB\n",
                folder.c_str(), at_once, limits.seconds, static_cast<double>(limits.memory_bytes) / 0x1p20);
@@ -338,12 +347,11 @@ int serve_until_stopped(const ServeCommand& command) {
     std::fprintf(
         stderr,
         "asperity: run no script of others on this machine; your own are held by the language's limits\n");
-  if (command.open)
-    open_in_browser(
-        "http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#" + people[0].token,
-        folder);
+  if (command.open) open_in_browser(begin + people[0].token, folder);
 
-  wait_for_end(signals);
+  int signal = 0;
+  while (::sigwait(&signals, &signal) != 0) {
+  }
   std::fprintf(stderr, "\nstopping\n");
   runs.close();
   live.close();
@@ -381,7 +389,7 @@ cli::CommandReader declare_serve(CLI::App& options) {
       "Each run is a process of its own that reaches no other file, process or network; what holds it on "
       "this machine is tried and shown at the start.");
 
-  return [given]() -> cli::CommandWork { return [given] { return web::serve(*given); }; };
+  return [given]() -> cli::CommandWork { return [given] { return serve(*given); }; };
 }
 
 }  // namespace
@@ -394,14 +402,6 @@ cli::Command serve_command() {
           "asperity serve [options]                       open the laboratory as a page, for one or for a "
           "room\n",
       .declare = declare_serve};
-}
-
-int serve(const ServeCommand& command) {
-  try {
-    return serve_until_stopped(command);
-  } catch (const std::exception& error) {
-    return cli::refused(error);
-  }
 }
 
 }  // namespace asperity::web
