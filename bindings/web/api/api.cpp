@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -22,6 +21,7 @@
 #include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity::web {
 
@@ -47,12 +47,10 @@ std::pair<std::string, std::string> split(const std::string& path) {
 }
 
 // Also with "; charset=utf-8".
-bool is_json(std::string type) {
-  type.resize(std::min(type.find(';'), type.size()));
-  while (!type.empty() && (type.back() == ' ' || type.back() == '\t')) type.pop_back();
-  std::ranges::transform(type, type.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return type == "application/json";
+bool is_json(const std::string& type) {
+  std::string kind = lower_case(type.substr(0, type.find(';')));
+  kind.erase(kind.find_last_not_of(" \t") + 1);
+  return kind == "application/json";
 }
 
 // Content policy: load from this server only; scripts are its files and `inline_scripts`.
@@ -240,44 +238,44 @@ Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& liv
       streams_({.places = 600, .each = setup_.classroom ? 24 : 300}) {}
 
 std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
-  auto refused = [](HttpResponse response) {
-    add_safe_headers(response);
-    return response;
-  };
-  if (const std::string why = access_.misdirected(head); !why.empty())
-    return refused(problem_answer(403, why));
+  std::optional<HttpResponse> refused = refusal_of(head);
+  if (refused) add_safe_headers(*refused);
+  return refused;
+}
+
+std::optional<HttpResponse> Api::refusal_of(const HttpRequest& head) const {
+  if (const std::string why = access_.misdirected(head); !why.empty()) return problem_answer(403, why);
   if (head.path.find('\0') != std::string::npos)
-    return refused(problem_answer(400, "the address holds a character that no address has"));
-  if (head.path.size() > 2000) return refused(problem_answer(414, "the address is too long"));
+    return problem_answer(400, "the address holds a character that no address has");
+  if (head.path.size() > 2000) return problem_answer(414, "the address is too long");
   const bool api = head.path.starts_with("/api/");
   if (api && !access_.person(head))
-    return refused(problem_answer(401, "the request carries no token that this server knows",
-                                  "open the whole address that `asperity serve` printed"));
+    return problem_answer(401, "the request carries no token that this server knows",
+                          "open the whole address that `asperity serve` printed");
   const bool reads = head.method == "GET" || (head.method == "HEAD" && !api);
   if (!reads && !(api && (head.method == "POST" || head.method == "DELETE")))
-    return refused(problem_answer(405, "the method is not one of this address"));
+    return problem_answer(405, "the method is not one of this address");
   const auto lengths = head.headers.equal_range("content-length");
   const bool has_body =
       head.headers.contains("transfer-encoding") ||
       std::any_of(lengths.first, lengths.second, [](const auto& header) { return header.second != "0"; });
   if (head.method != "POST")
-    return has_body ? std::optional(refused(problem_answer(400, "a request of this method has no body")))
+    return has_body ? std::optional(problem_answer(400, "a request of this method has no body"))
                     : std::nullopt;
   const std::string* length = head.header("content-length");
   std::size_t bytes = 0;
   if (length == nullptr || head.headers.contains("transfer-encoding") ||
       head.headers.contains("content-encoding"))
-    return refused(problem_answer(411, "the body must come as it is, with its length"));
+    return problem_answer(411, "the body must come as it is, with its length");
   const auto [end, wrong] = std::from_chars(length->data(), length->data() + length->size(), bytes);
   if (wrong != std::errc() || end != length->data() + length->size())
-    return refused(problem_answer(400, "the length of the body is no number"));
+    return problem_answer(400, "the length of the body is no number");
   if (bytes > HttpSetup{}.most_body_bytes)
-    return refused(problem_answer(413, "the body has " + std::to_string(bytes) + " bytes",
-                                  "a request may have " + std::to_string(HttpSetup{}.most_body_bytes)));
+    return problem_answer(413, "the body has " + std::to_string(bytes) + " bytes",
+                          "a request may have " + std::to_string(HttpSetup{}.most_body_bytes));
   const std::string* type = head.header("content-type");
   if (type == nullptr || !is_json(*type))
-    return refused(
-        problem_answer(415, "the body must be JSON, and said to be (Content-Type: application/json)"));
+    return problem_answer(415, "the body must be JSON, and said to be (Content-Type: application/json)");
   return {};
 }
 

@@ -108,6 +108,7 @@ class Api final : public HttpHandler {
   HttpResponse answer(const HttpRequest& request) override;
 
  private:
+  std::optional<HttpResponse> refusal_of(const HttpRequest& head) const;
   HttpResponse route(const HttpRequest& request);
   bool is_teacher(std::size_t person) const { return setup_.classroom && person == 0; }
   HttpResponse about(std::size_t person) const;
