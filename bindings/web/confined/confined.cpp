@@ -67,24 +67,19 @@ int become_gnuplot() {
   return 127;
 }
 
-GnuplotResult ask(int socket, std::string_view script, std::span<const GnuplotData> data) {
+// A confined run can start no program: the server draws (Follower).
+GnuplotResult drawn_by_server(std::string_view script, std::span<const GnuplotData> data) {
   static std::mutex one_at_a_time;
   std::vector<std::string_view> texts{script};
   for (const GnuplotData& item : data) texts.insert(texts.end(), {item.name, item.bytes});
   const std::lock_guard lock(one_at_a_time);
-  const auto answer = send_frame(socket, texts) ? receive_frame(socket, most_picture_bytes) : std::nullopt;
+  const bool sent = send_frame(drawing_descriptor, texts);
+  const auto answer = sent ? receive_frame(drawing_descriptor, most_picture_bytes) : std::nullopt;
   if (!answer || answer->size() != 3)
     throw Error(ErrorCode::bad_state, "the picture was not drawn: the server that draws it gave no answer",
                 "a picture may have at most 64 MiB of data");
   if (!(*answer)[0].empty()) throw Error(ErrorCode::bad_state, (*answer)[0]);
   return {(*answer)[1], (*answer)[2]};
-}
-
-// A confined run can start no program: the server draws (Follower).
-void draw_by_server(int socket) {
-  draw_pictures_by([socket](std::string_view script, std::span<const GnuplotData> data) {
-    return ask(socket, script, data);
-  });
 }
 
 int run_or_check(const ConfinedRequest& request) {
@@ -93,7 +88,7 @@ int run_or_check(const ConfinedRequest& request) {
   const cli::RunCommand command = page_command(request, events);
   std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
   if (request.work == Work::check) return cli::check(command);
-  draw_by_server(drawing_descriptor);
+  draw_pictures_by(drawn_by_server);
   return cli::run(command);
 }
 
@@ -129,7 +124,7 @@ int confined_main() {
       case Work::live:
         return run_as_knobs_move(request, drawing_descriptor);
       case Work::command:
-        draw_by_server(drawing_descriptor);
+        draw_pictures_by(drawn_by_server);
         return carry_out(request.command.value(), request.lock);
     }
   } catch (const std::exception& error) {

@@ -7,11 +7,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "bindings/cli/disk_bound.hpp"
@@ -35,7 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 4> confined_ways_out{"files", "processes", "network", "programs"};
 constexpr double usual_seconds = 600;
 constexpr std::int64_t usual_disk = std::int64_t{1} << 30;
 constexpr std::size_t most_files = 20000, most_script_bytes = std::size_t{64} << 20;
@@ -87,30 +86,26 @@ bool is_at_or_above(const fs::path& folder, const fs::path& other) {
   return std::ranges::mismatch(folder, other).in1 == folder.end();
 }
 
-std::vector<fs::path> home_folders() {
-  std::vector<fs::path> homes;
+bool holds_the_home(const fs::path& folder) {
   const passwd* const user = ::getpwuid(::getuid());
   for (const char* named : {static_cast<const char*>(std::getenv("HOME")),
                             user != nullptr ? static_cast<const char*>(user->pw_dir) : nullptr}) {
     std::error_code problem;
     if (named == nullptr || named[0] != '/') continue;
     const fs::path home = fs::canonical(named, problem);
-    if (!problem && home != "/") homes.push_back(home);
+    if (!problem && home != "/" && is_at_or_above(folder, home)) return true;
   }
-  return homes;
-}
-
-bool holds_the_home(const fs::path& folder) {
-  return folder == "/" || std::ranges::any_of(home_folders(), [&](const fs::path& home) {
-           return is_at_or_above(folder, home);
-         });
+  return folder == "/";
 }
 
 // The script's folders, under their real names and their names in the command.
 class Places {
  public:
   void add(const std::string& named, const fs::path& real, bool write) {
-    put({real.string(), real.string(), write});
+    if (const auto known = std::ranges::find(places_, real.string(), &Place::seen); known == places_.end())
+      places_.push_back({real.string(), real.string(), write});
+    else
+      known->write = known->write || write;
     std::string seen = fs::absolute(named.empty() ? "." : named).lexically_normal().string();
     while (seen.size() > 1 && seen.back() == '/') seen.pop_back();
     if (seen != real.string()) links_.push_back({real.string(), seen, write});
@@ -131,36 +126,23 @@ class Places {
   }
 
  private:
-  void put(const Place& place) {
-    const auto known = std::ranges::find(places_, place.seen, &Place::seen);
-    if (known == places_.end())
-      places_.push_back(place);
-    else
-      known->write = known->write || place.write;
-  }
   std::vector<Place> places_, links_;
 };
-
-std::vector<std::string> split_at_commas(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    if (end > begin) parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 // The open ways that are allowed. Throws Error{not_permitted} for other open ways, Error{bad_value} for
 // unknown names.
 std::vector<std::string> open_ways(const BarrierReport& report, const std::string& without) {
-  const std::vector<std::string> allowed = split_at_commas(without),
-                                 known(confined_ways_out.begin(), confined_ways_out.end());
-  for (const std::string& name : allowed)
+  const std::vector<std::string> known{"files", "processes", "network", "programs"};
+  std::vector<std::string> allowed;
+  std::istringstream names(without);
+  for (std::string name; std::getline(names, name, ',');) {
+    if (name.empty()) continue;
     if (std::ranges::find(known, name) == known.end())
       throw Error(ErrorCode::bad_value,
                   "`--without-barriers` names " + asperity::quoted(name) + did_you_mean(name, known),
                   "the barriers are " + joined(known, " and "));
+    allowed.push_back(name);
+  }
   std::vector<std::string> open, refused, reasons;
   for (const std::string& name : known) {
     const auto tried = std::ranges::find(report.tried, name, &Barrier::name);

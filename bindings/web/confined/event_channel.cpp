@@ -132,13 +132,10 @@ View view_of(const Surface& surface, const std::string& title) {
 
 View view_of(const State& state, const std::string& title) {
   View view{title};
-  struct Shown {
-    const char *name, *unit;
-  };
-  for (const Shown& shown :
-       {Shown{"pressure", "Pa"}, Shown{"gap", "m"}, Shown{"contact", ""}, Shown{"plastic", "m"}}) {
+  for (const auto& [name, unit] :
+       {std::pair{"pressure", "Pa"}, {"gap", "m"}, {"contact", ""}, {"plastic", "m"}}) {
     try {
-      add_field(view, shown.name, shown.unit, *state.field(shown.name), state.grid());
+      add_field(view, name, unit, *state.field(name), state.grid());
     } catch (const Error& error) {
       // The contact lacks this effect.
       if (error.code() != ErrorCode::bad_state) throw;
@@ -237,14 +234,10 @@ void EventChannel::found(const std::string& call, const lua::Values& results) {
   for (Seen& seen : seen_in(call, results)) see(std::move(seen));
 }
 
-bool EventChannel::has_time_for_views() const {
-  return views_in_all_ < first_views ||
-         (views_in_all_ < most_views - 1 && spent_ * 10 < Clock::now() - begun_);
-}
-
 void EventChannel::see(Seen seen) {
   if (views_.empty()) return;
-  if (has_time_for_views()) {
+  const bool has_time = spent_ * 10 < Clock::now() - begun_;
+  if (views_in_all_ < first_views || (views_in_all_ < most_views - 1 && has_time)) {
     keep_view(seen);
     last_ = {};
   } else {

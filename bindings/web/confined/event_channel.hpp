@@ -83,7 +83,6 @@ class EventChannel final : public cli::RunObserver {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool has_time_for_views() const;
   void see(Seen seen);
   void keep_view(const Seen& seen);
 
