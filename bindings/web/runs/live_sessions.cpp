@@ -3,7 +3,6 @@
 
 #include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -51,8 +50,7 @@ LiveSession::~LiveSession() {
 void LiveSession::end(const std::string& why) {
   const std::lock_guard lock(mutex_);
   if (why_.empty()) why_ = why;
-  const std::uint64_t one = 1;
-  (void)!::write(wake_.get(), &one, sizeof one);
+  ::eventfd_write(wake_.get(), 1);
 }
 
 bool LiveSession::busy() const {
@@ -74,8 +72,7 @@ std::int64_t LiveSession::move(const GivenKnobs& knobs, const std::string& view,
   used_ = Clock::now();
   question_ =
       Json::object({{"move", ++moves_}, {"knobs", std::move(given)}, {"view", view}, {"map", map}}).text();
-  const std::uint64_t one = 1;
-  (void)!::write(wake_.get(), &one, sizeof one);
+  ::eventfd_write(wake_.get(), 1);
   return moves_;
 }
 
@@ -127,8 +124,8 @@ class LiveFollower final : public Follower {
   }
 
   void look(Clock::time_point now) override {
-    std::uint64_t count = 0;
-    if (::read(session_.wake_.get(), &count, sizeof count) > 0) ask();
+    eventfd_t count = 0;
+    if (::eventfd_read(session_.wake_.get(), &count) == 0) ask();
     if (!take_answers()) process_.send(SIGKILL);
     if (now - session_.last_used() > session_.setup_.idle) end("no knob was moved for a while");
     const std::lock_guard lock(session_.mutex_);

@@ -255,8 +255,6 @@ PageRun::PageRun(std::string name, std::size_t of, RunRequest asked, const std::
       directory(private_folder(in / "run")),
       events(in / "events.jsonl") {}
 
-void PageRun::stop() { stop_.store(true); }
-
 void PageRun::go(const RunLimits& limits, const std::vector<std::string>& barriers) {
   begun_ = std::chrono::steady_clock::now();
   state_.store(RunState::running);
@@ -281,8 +279,6 @@ void PageRun::tell_place(std::size_t before) {
   told_place_ = before;
   events.add("waiting", Json::object({{"before", before}}));
 }
-
-void PageRun::give_up(RunState state, const std::string& reason) { finish(state, 1, reason); }
 
 void PageRun::finish(RunState state, int exit, const std::string& reason) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun_;

@@ -91,12 +91,12 @@ class PageRun {
   // Adds an event with the number of runs ahead, if changed. One call at a time.
   void tell_place(std::size_t before);
   // Asynchronous for a current run.
-  void stop();
+  void stop() { stop_.store(true); }
   bool stop_asked() const { return stop_.load(); }
 
   // The whole run, on this thread. `barriers`: required.
   void go(const RunLimits& limits, const std::vector<std::string>& barriers);
-  void give_up(RunState state, const std::string& reason);
+  void give_up(RunState state, const std::string& reason) { finish(state, 1, reason); }
 
  private:
   void finish(RunState state, int exit, const std::string& reason);
