@@ -43,8 +43,6 @@ class ConfinedProcess {
   ConfinedProcess(const ConfinedRequest& request, const std::string& folder);
   // Kills and waits.
   ~ConfinedProcess();
-  ConfinedProcess(const ConfinedProcess&) = delete;
-  ConfinedProcess& operator=(const ConfinedProcess&) = delete;
 
   Descriptor output, error, events, drawing;  // this side's ends
 
@@ -74,8 +72,6 @@ struct FollowBounds {
 // and disk. The process counts as hostile: its gnuplot input runs in another confined process.
 class Follower {
  public:
-  Follower(const Follower&) = delete;
-  Follower& operator=(const Follower&) = delete;
   virtual ~Follower();
 
  protected:

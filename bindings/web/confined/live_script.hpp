@@ -52,8 +52,6 @@ class LiveScript {
   // Keeps references. Takes over the standard output of the process.
   LiveScript(const ConfinedRequest& request, KnobAsker& asker);
   ~LiveScript();
-  LiveScript(const LiveScript&) = delete;
-  LiveScript& operator=(const LiveScript&) = delete;
 
   // Calls `send` up to three times: the answer on fewer cells, the whole answer with the map in view, and
   // the other maps.

@@ -43,8 +43,6 @@ class LiveSession {
   LiveSession(std::string id, std::size_t owner, std::string tab, const RunRequest& request,
               const LiveSetup& setup);
   ~LiveSession();
-  LiveSession(const LiveSession&) = delete;
-  LiveSession& operator=(const LiveSession&) = delete;
 
   const std::string id;
   const std::size_t owner;
@@ -93,8 +91,6 @@ class LiveSessions {
  public:
   explicit LiveSessions(LiveSetup setup);
   ~LiveSessions();
-  LiveSessions(const LiveSessions&) = delete;
-  LiveSessions& operator=(const LiveSessions&) = delete;
 
   // Replaces the tab's session. Throws Error{bad_state} if all are busy or the server is stopping.
   std::shared_ptr<LiveSession> begin(std::size_t owner, const std::string& tab, const RunRequest& request);

@@ -34,8 +34,6 @@ class RunQueue {
  public:
   explicit RunQueue(QueueSetup setup);
   ~RunQueue();
-  RunQueue(const RunQueue&) = delete;
-  RunQueue& operator=(const RunQueue&) = delete;
 
   // Throws Error{bad_state} naming the exhausted limit; Error{bad_file}.
   std::shared_ptr<PageRun> add(std::size_t owner, RunRequest request);
