@@ -41,6 +41,36 @@ export class Run {
   readonly errors: EventOf<'error'>[] = [];
   readonly charted = new Map<string, ChartEvent>(); // each once
   private characters = 0;
+  private readonly on: { [Type in RunEvent['type']]: (event: EventOf<Type>) => void } = {
+    waiting: (event) => (this.before = event.before),
+    started: () => (this.status = 'running'),
+    output: (event) => this.print(event.stream, event.text),
+    progress: (event) => (this.progress = event),
+    row: (event) => this.write(event.notebook, event.row, event.units ?? {}, event.columns ?? []),
+    chart: (event) => {
+      if (this.charted.size < mostCharts) this.charted.set(JSON.stringify({ ...event, n: 0 }), event);
+    },
+    study: (event) =>
+      event.rows.forEach(({ knobs, ...row }, k) =>
+        this.write(event.name, { ...knobs, ...row, seconds: event.seconds[k] }, { seconds: 's' }, ['way']),
+      ),
+    file: (event) => this.files.set(event.name, event),
+    view: ({ name, title = name }) => {
+      if (this.views.some((v) => v.name === name)) return;
+      const same = this.views.filter((v) => v.title === title || v.title.startsWith(`${title} (`)).length;
+      this.views.push({ name, title: same ? `${title} (${same + 1})` : title });
+    },
+    views_left_out: (event) => (this.viewsLeftOut = event.count),
+    expectation: (event) => this.expectations.push(event),
+    error: (event) => this.errors.push(event),
+    finished: (event) => {
+      this.status = event.status;
+      // An error has its own reason.
+      this.reason = event.status === 'failed' && this.errors[0] ? '' : (event.reason ?? '').replace(/\.$/, '');
+      this.seconds = event.seconds;
+      this.progress = undefined;
+    },
+  };
 
   constructor(
     readonly id: string,
@@ -54,57 +84,8 @@ export class Run {
   }
 
   take(event: RunEvent): void {
-    switch (event.type) {
-      case 'waiting':
-        this.before = event.before;
-        break;
-      case 'started':
-        this.status = 'running';
-        break;
-      case 'output':
-        this.print(event.stream, event.text);
-        break;
-      case 'progress':
-        this.progress = event;
-        break;
-      case 'row':
-        this.write(event.notebook, event.row, event.units ?? {}, event.columns ?? []);
-        break;
-      case 'chart':
-        if (this.charted.size < mostCharts) this.charted.set(JSON.stringify({ ...event, n: 0 }), event);
-        break;
-      case 'study':
-        event.rows.forEach(({ knobs, ...row }, k) =>
-          this.write(event.name, { ...knobs, ...row, seconds: event.seconds[k] }, { seconds: 's' }, ['way']),
-        );
-        break;
-      case 'file':
-        this.files.set(event.name, event);
-        break;
-      case 'view':
-        if (!this.views.some((v) => v.name === event.name)) {
-          const title = event.title ?? event.name;
-          const same = this.views.filter((v) => v.title === title || v.title.startsWith(`${title} (`)).length;
-          this.views.push({ name: event.name, title: same ? `${title} (${same + 1})` : title });
-        }
-        break;
-      case 'views_left_out':
-        this.viewsLeftOut = event.count;
-        break;
-      case 'expectation':
-        this.expectations.push(event);
-        break;
-      case 'error':
-        this.errors.push(event);
-        break;
-      case 'finished':
-        this.status = event.status;
-        // An error has its own reason.
-        this.reason = event.status === 'failed' && this.errors[0] ? '' : (event.reason ?? '').replace(/\.$/, '');
-        this.seconds = event.seconds;
-        this.progress = undefined;
-        break;
-    }
+    const act = this.on[event.type] as ((event: RunEvent) => void) | undefined;
+    act?.(event);
   }
 
   private print(stream: 'out' | 'err', text: string): void {
