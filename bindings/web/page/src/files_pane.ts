@@ -60,7 +60,7 @@ export class FilesPane {
     if (now === this.drawn) return;
     this.drawn = now;
     const items = files.map(({ name, bytes: size }) => {
-      const save = { 'aria-label': `Save ${name}, ${bytes(size)}`, onclick: () => void this.save(name) };
+      const save = { 'aria-label': `Save ${name}, ${bytes(size)}`, onclick: () => this.save(name).catch(this.failed) };
       return h('li', h('button.file', save, name), h('span.bytes', bytes(size)));
     });
     this.list.replaceChildren(...items);
@@ -68,11 +68,7 @@ export class FilesPane {
   }
 
   private async save(name: string): Promise<void> {
-    try {
-      saveAs(name.split('/').pop()!, await this.api.file(this.run!.id, name));
-    } catch (error) {
-      this.failed(error);
-    }
+    saveAs(name.split('/').pop()!, await this.api.file(this.run!.id, name));
   }
 
   private async preview(name: string, size: number): Promise<void> {

@@ -71,7 +71,7 @@ export class HandButton {
     private readonly script: () => SharedScript,
     private readonly failed: (error: unknown) => void,
   ) {
-    this.button.addEventListener('click', () => void this.hand(this.script()));
+    this.button.addEventListener('click', () => this.hand(this.script()));
   }
 
   offer(teacher: boolean): void {
@@ -84,18 +84,16 @@ export class HandButton {
     this.button.textContent = 'Hand out';
   }
 
-  private async hand(script?: SharedScript): Promise<void> {
-    try {
-      await this.api.hand(script);
+  private hand(script?: SharedScript): void {
+    const handed = (): void => {
       this.show(script?.name);
       this.button.textContent = script ? 'Handed out' : 'Hand out';
-    } catch (error) {
-      this.failed(error);
-    }
+    };
+    this.api.hand(script).then(handed).catch(this.failed);
   }
 
   private show(name: string | undefined): void {
-    const back = h('button', { onclick: () => void this.hand() }, 'Take it back');
+    const back = h('button', { onclick: () => this.hand() }, 'Take it back');
     this.line.replaceChildren(h('span', name ? `Handed out: ${name}` : 'No script is handed out.'), name ? back : '');
   }
 }

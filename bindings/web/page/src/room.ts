@@ -33,7 +33,7 @@ export class Room {
     const focused = this.list.contains(document.activeElement) ? document.activeElement!.id : '';
     const items = runs.map(({ id, name, owner, state }) => {
       const label = `Stop ${name || 'the script'} of ${owner}`;
-      const stop = { id: `room-stop-${id}`, 'aria-label': label, onclick: () => void this.stop(id) };
+      const stop = { id: `room-stop-${id}`, 'aria-label': label, onclick: () => this.stop(id).catch(this.failed) };
       return h('li', h('span', `${owner}: ${name || 'script'}, ${state}`), h('button', stop, 'Stop'));
     });
     this.list.replaceChildren(...(items.length ? items : [h('li', 'No script runs or waits.')]));
@@ -60,33 +60,25 @@ export class Room {
   }
 
   private lookAt(name: string): HTMLElement {
-    const label = `Show script of ${name}`;
-    return h('button', { id: `room-look-${name}`, 'aria-label': label, onclick: () => void this.look(name) }, 'Show script');
+    const onclick = () => this.look(name).catch(this.failed);
+    return h('button', { id: `room-look-${name}`, 'aria-label': `Show script of ${name}`, onclick }, 'Show script');
   }
 
   private async look(student: string): Promise<void> {
-    try {
-      const shown = await this.api.shownBy(student);
-      const title = h('h3', { tabIndex: -1 }, `Script of ${student}: ${shown.name}`);
-      const take = (): void => {
-        this.script.closest('dialog')!.close();
-        this.open(student, shown);
-      };
-      const text = h('pre.sample', { tabIndex: 0 }, shown.script);
-      this.script.replaceChildren(title, text, h('button', { onclick: take }, 'Open a copy'));
-      title.focus();
-    } catch (error) {
-      this.failed(error);
-    }
+    const shown = await this.api.shownBy(student);
+    const title = h('h3', { tabIndex: -1 }, `Script of ${student}: ${shown.name}`);
+    const take = (): void => {
+      this.script.closest('dialog')!.close();
+      this.open(student, shown);
+    };
+    const text = h('pre.sample', { tabIndex: 0 }, shown.script);
+    this.script.replaceChildren(title, text, h('button', { onclick: take }, 'Open a copy'));
+    title.focus();
   }
 
   private async stop(id: string): Promise<void> {
-    try {
-      await this.api.stop(id);
-      await this.ask();
-    } catch (error) {
-      this.failed(error);
-    }
+    await this.api.stop(id);
+    await this.ask();
   }
 }
 
