@@ -49,8 +49,7 @@ export async function drawingsOf(
     const colours = coloursOf(field.name, field.values, range);
     if (scene) {
       scene.show(field, relief, colours, exaggeration);
-      scene.turnTo(relief ? attitude : above);
-      scene.render();
+      scene.render(relief ? attitude : above);
     } else {
       drawFlat(canvas, field, colours);
     }

@@ -318,8 +318,7 @@ export class PicturePane {
 
   private render(): void {
     if (!this.scene || !this.map.hidden) return;
-    this.scene.turnTo(this.attitude);
-    this.scene.render();
+    this.scene.render(this.attitude);
     const { width, height } = this.room;
     const tags = this.scene.anchors(width, height).map(({ name, left, top, outward }) => {
       const tag = h('span.tag', anchorText(name, this.colour!, this.relief));

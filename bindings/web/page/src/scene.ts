@@ -17,7 +17,7 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
-import { barFor, heightsOf, resting, spanOf, type Attitude, type Field } from './pictures';
+import { barFor, heightsOf, spanOf, type Attitude, type Field } from './pictures';
 import { extentOf } from './units';
 
 /** A label position, px from the top left. */
@@ -35,7 +35,6 @@ export class ReliefScene {
   private mesh: Mesh<BufferGeometry, MeshBasicMaterial> | undefined;
   private frame: LineSegments<BufferGeometry, LineBasicMaterial> | undefined;
   private readonly corners: Record<'x' | 'y' | 'z', Vector3[]> = { x: [], y: [], z: [] };
-  private attitude: Attitude = resting;
   private ink = 0x444444;
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -116,12 +115,7 @@ export class ReliefScene {
     this.scene.add(this.frame);
   }
 
-  turnTo(attitude: Attitude): void {
-    this.attitude = attitude;
-  }
-
-  render(): void {
-    const { turn, tilt, zoom } = this.attitude;
+  render({ turn, tilt, zoom }: Attitude): void {
     const [t, p] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
     // Fits the tile's diagonal.
     const distance = (3.0 / zoom) * Math.max(1, 1.15 / this.camera.aspect);
