@@ -4,7 +4,7 @@
 
 import { scaleLinear } from 'd3-scale';
 import { svg } from './dom';
-import { extentOf, numberText, scaleFor } from './units';
+import { extentOf, greatestOf, numberText, scaleFor } from './units';
 
 /** For light and dark paper; chart lines in Okabe and Ito's colours for all kinds of colour vision, adjusted
     for contrast. */
@@ -85,26 +85,21 @@ function tableOf(field: string): Uint8Array {
   return table;
 }
 
-export interface Range {
-  low: number;
-  high: number;
-}
+type Range = [low: number, high: number];
 
 /** Pressures, gaps and fractions start at zero. */
 export function rangeOf(field: string, values: Float32Array): Range {
-  const extent = extentOf(values);
-  const high = extent[1];
-  let low = extent[0];
-  if (low > high || field === 'contact') return { low: 0, high: 1 };
-  if (field !== 'height' && low > 0) low = 0;
-  return low === high ? { low: low - (Math.abs(low) || 1) / 2, high: high + (Math.abs(high) || 1) / 2 } : { low, high };
+  const [least, high] = extentOf(values);
+  if (least > high || field === 'contact') return [0, 1];
+  const low = field !== 'height' && least > 0 ? 0 : least;
+  return low === high ? [low - (Math.abs(low) || 1) / 2, high + (Math.abs(high) || 1) / 2] : [low, high];
 }
 
-export function coloursOf(field: string, values: Float32Array, range: Range): Uint8Array {
+export function coloursOf(field: string, values: Float32Array, [low, high]: Range): Uint8Array {
   const table = tableOf(field);
   const none = noneOf(field);
   const out = new Uint8Array(values.length * 3);
-  const factor = 255 / (range.high - range.low);
+  const factor = 255 / (high - low);
   for (let k = 0, to = 0; k < values.length; ++k, to += 3) {
     const v = values[k];
     if (!Number.isFinite(v)) {
@@ -112,7 +107,7 @@ export function coloursOf(field: string, values: Float32Array, range: Range): Ui
       continue;
     }
     const from = none && v <= 0 ? none : table;
-    const at = none && v <= 0 ? 0 : 3 * Math.min(255, Math.max(0, Math.round((v - range.low) * factor)));
+    const at = none && v <= 0 ? 0 : 3 * Math.min(255, Math.max(0, Math.round((v - low) * factor)));
     out[to] = from[at];
     out[to + 1] = from[at + 1];
     out[to + 2] = from[at + 2];
@@ -142,8 +137,8 @@ export const legendHeight = 42; // px
 
 /** `width` in px. */
 export function legend(field: string, unit: string, range: Range, width: number, ink: string): SVGElement {
-  const scale = scaleFor(unit, Math.max(Math.abs(range.low), Math.abs(range.high)));
-  const [low, high] = [range.low / scale.factor, range.high / scale.factor];
+  const scale = scaleFor(unit, greatestOf(range));
+  const [low, high] = range.map((value) => value / scale.factor);
   const root = svg('svg', {
     width,
     height: legendHeight,
