@@ -49,7 +49,8 @@ export function drawChart(
   const lines = given.map((l) => inUnits(l, scaleX.factor, scaleY.factor));
   const faint = earlier.map((l) => ({ ...l, ...inUnits(l, scaleX.factor, scaleY.factor) }));
   const legend = legendRows(lines.length > 1 ? lines : [], width - 90);
-  const turned = named && !fitAside(names, width - 130);
+  const aside = names.every((name) => widthOf(name) + 12 <= (width - 130) / names.length);
+  const turned = named && !aside;
   const tall = turned ? Math.min(height / 3, Math.max(...names.map((n) => widthOf(shortened(n))))) : 0;
   const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 + Math.max(0, tall - fontSize) };
   const upright = height - margin.top - margin.bottom;
@@ -220,11 +221,6 @@ function barOf({ x, y, deviation }: Mean, log: boolean): { x: number; y1: number
 export function apartBy(size: (text: string) => number, length: number) {
   return (labels: string[], shares: number[]): boolean =>
     labels.every((text, k) => k === 0 || length * (shares[k] - shares[k - 1]) >= (size(text) + size(labels[k - 1])) / 2);
-}
-
-/** Whether the names fit side by side. */
-function fitAside(names: string[], length: number): boolean {
-  return names.every((name) => widthOf(name) + 12 <= length / names.length);
 }
 
 /** At most 220 px; the point's title has the whole name. */

@@ -150,8 +150,11 @@ function firstChoice(run: Run, notebook: Notebook): ChartChoice {
 /** The first column of texts with two to eight values; else empty. */
 function partedBy(notebook: Notebook): string {
   const numeric = numericColumns(notebook);
-  const few = (count: number): boolean => count > 1 && count <= 8;
-  return notebook.columns.find((c) => !numeric.includes(c) && few(distinct(notebook, c))) ?? '';
+  const few = (c: string): boolean => {
+    const values = new Set(notebook.rows.map((r) => r[c]).filter((v) => v !== undefined && v !== null));
+    return values.size > 1 && values.size <= 8;
+  };
+  return notebook.columns.find((c) => !numeric.includes(c) && few(c)) ?? '';
 }
 
 /** With the notebook's columns only; undefined without both axes. */
@@ -169,8 +172,4 @@ function varies(notebook: Notebook, column: string): boolean {
   if (notebook.rows.length < 2) return true;
   const [low, high] = extentOf(notebook.rows.map((row) => row[column]));
   return high > low && !sameToRounding(low, high);
-}
-
-function distinct(notebook: Notebook, column: string): number {
-  return new Set(notebook.rows.map((r) => r[column]).filter((v) => v !== undefined && v !== null)).size;
 }

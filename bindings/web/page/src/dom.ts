@@ -91,7 +91,7 @@ export class Choice {
 }
 
 /** A labelled slider from 0 to `most`, with its value as text. */
-export function slider(label: string, most: number, moved: (place: number, event: Event) => void, more: Properties = {}) {
+export function slider(label: string, most: number, moved: (place: number) => void) {
   const value = h('output.factor');
   const input = h('input', {
     type: 'range',
@@ -99,8 +99,7 @@ export function slider(label: string, most: number, moved: (place: number, event
     max: String(most),
     step: '1',
     'aria-label': label,
-    oninput: (event: Event) => moved(Number(input.value), event),
-    ...more,
+    oninput: () => moved(Number(input.value)),
   });
   /** `spoken`: for screen readers. */
   const tell = (place: number, text: string, spoken = text): void => {

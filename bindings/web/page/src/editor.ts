@@ -143,13 +143,6 @@ const typingOver = EditorView.domEventHandlers({
   },
 });
 
-export interface EditorEvents {
-  changed: (text: string) => void;
-  checked: (marks: Mark[]) => void;
-  found: (script: string, answer: Check) => void;
-  failed: (error: unknown) => void;
-}
-
 export class Editor {
   readonly view: EditorView;
   private marks: Mark[] = [];
@@ -162,7 +155,12 @@ export class Editor {
   constructor(
     host: HTMLElement,
     private readonly api: Api,
-    private readonly on: EditorEvents,
+    private readonly on: {
+      changed: (text: string) => void;
+      checked: (marks: Mark[]) => void;
+      found: (script: string, answer: Check) => void;
+      failed: (error: unknown) => void;
+    },
   ) {
     const root = host.attachShadow({ mode: 'open' });
     const frame = h('div');

@@ -9,12 +9,10 @@ export interface Field extends FieldFacts {
 }
 
 export function fieldsOf(view: View): Field[] {
-  return view.fields.map((field) => fieldOf(field, numbersIn(field.data)));
-}
-
-function numbersIn(data: string): Float32Array {
-  const bytes = atob(data);
-  return new Float32Array(new Uint8Array(bytes.length).map((_, k) => bytes.charCodeAt(k)).buffer);
+  return view.fields.map((field) => {
+    const bytes = atob(field.data);
+    return fieldOf(field, new Float32Array(new Uint8Array(bytes.length).map((_, k) => bytes.charCodeAt(k)).buffer));
+  });
 }
 
 export function fieldOf(field: FieldFacts, values: Float32Array | undefined): Field {
@@ -75,7 +73,7 @@ export function factorText(factor: number): string {
 }
 
 /** "shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024", "all … nodes shown". */
-export function samplingText(field: Field): string {
+function samplingText(field: Field): string {
   const shown = `${field.nx} × ${field.ny}`;
   const from = `${field.from_nx} × ${field.from_ny}`;
   if (field.reduction === 'none' || shown === from) return `all ${from} nodes shown`;
@@ -84,13 +82,10 @@ export function samplingText(field: Field): string {
   return `shown: ${shown} means of ${mean[1]} × ${mean[2]} ${mean[3]} of ${from}${mean[4]}`;
 }
 
-export function sizeText(field: Field): string {
-  const scale = scaleFor('m', Math.max(field.size_x, field.size_y));
-  return `${numberText(field.size_x / scale.factor)} × ${numberText(field.size_y / scale.factor)} ${scale.unit}`;
-}
-
 export function captionOf(colour: Field, relief: Field | undefined, exaggeration: number): string {
-  const parts = [sizeText(colour)];
+  const scale = scaleFor('m', Math.max(colour.size_x, colour.size_y));
+  const [x, y] = [colour.size_x, colour.size_y].map((size) => numberText(size / scale.factor));
+  const parts = [`${x} × ${y} ${scale.unit}`];
   if (relief) parts.push(`${relief.name === 'gap' ? 'gap, drawn downwards,' : 'heights'} ${factorText(exaggeration)}`);
   else parts.push('flat map');
   parts.push(samplingText(colour));

@@ -11,16 +11,7 @@ const shownRows = 500;
 const longName = 24; // characters; then wrapped
 const longText = 60;
 
-export function columnScales(notebook: Notebook): Map<string, Scale> {
-  const scales = new Map<string, Scale>();
-  for (const column of numericColumns(notebook)) {
-    const greatest = greatestOf(notebook.rows.map((row) => row[column]));
-    scales.set(column, scaleFor(notebook.units[column], greatest));
-  }
-  return scales;
-}
-
-export function cellText(value: Cell | undefined, scale: Scale | undefined): string {
+function cellText(value: Cell | undefined, scale: Scale | undefined): string {
   if (value === undefined || value === null) return '';
   if (typeof value === 'number') return numberText(value / (scale?.factor ?? 1), 5);
   if (typeof value === 'boolean') return value ? 'yes' : 'no';
@@ -28,7 +19,8 @@ export function cellText(value: Cell | undefined, scale: Scale | undefined): str
 }
 
 export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
-  const scales = columnScales(notebook);
+  const greatest = (c: string): number => greatestOf(notebook.rows.map((row) => row[c]));
+  const scales = new Map(numericColumns(notebook).map((c) => [c, scaleFor(notebook.units[c], greatest(c))]));
   const count = notebook.rows.length;
   const from = Math.max(0, count - most);
   const words = from ? `the last ${most} of ${count} rows` : `${count} ${count === 1 ? 'row' : 'rows'}`;
