@@ -110,7 +110,7 @@ class PageAsker final : public KnobAsker {
 struct Live {
   ConfinedRequest request;
   PageAsker asker{};
-  LiveScript script{request, asker};
+  std::function<void(const KnobQuestion&)> answer = live_script(request, asker);
 };
 
 // Errors of scripts are events; another error is one line on standard error.
@@ -193,7 +193,7 @@ EMSCRIPTEN_KEEPALIVE int asperity_move(const char* question) {
   static std::unique_ptr<Live> live;
   return guarded([question] {
     if (!live) live.reset(new Live{request_in(asperity::Json::parse(question, "a question"), Work::live)});
-    live->script.answer(knob_question(question));
+    live->answer(knob_question(question));
     return 0;
   });
 }

@@ -101,8 +101,8 @@ class Questions final : public KnobAsker {
 int run_as_knobs_move(const ConfinedRequest& request, int socket) {
   const cli::UnlinkedFilesBound unlinked(request.confinement.file_bytes);
   Questions questions(socket);
-  LiveScript script(request, questions);
-  for (;;) script.answer(questions.next());
+  const auto answer = live_script(request, questions);
+  for (;;) answer(questions.next());
 }
 
 }  // namespace asperity::web

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -117,26 +118,9 @@ class Interruptible {
   KnobAsker& asker_;
 };
 
-}  // namespace
-
-KnobQuestion knob_question(const std::string& text) {
-  const Json json = Json::parse(text, "a question");
-  const auto member = [&](const char* name) -> const Json& {
-    const Json* found = json.find(name);
-    if (found == nullptr) throw Error(ErrorCode::bad_file, std::string("a question has no `") + name + "`");
-    return *found;
-  };
-  KnobQuestion question;
-  question.move = static_cast<std::int64_t>(member("move").number());
-  for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
-  question.view = member("view").string();
-  question.map = member("map").string();
-  return question;
-}
-
-class LiveScript::Runner {
+class LiveScript {
  public:
-  Runner(const ConfinedRequest& request, KnobAsker& asker)
+  LiveScript(const ConfinedRequest& request, KnobAsker& asker)
       : request_(request),
         asker_(asker),
         memory_(std::min(std::int64_t{256} << 20, request.confinement.memory_bytes / 4)) {
@@ -207,7 +191,7 @@ class LiveScript::Runner {
   double too_coarse_ = 0;  // too few cells for the script
 };
 
-bool LiveScript::Runner::pass(const KnobQuestion& question, const Pass& pass) {
+bool LiveScript::pass(const KnobQuestion& question, const Pass& pass) {
   const Clock::time_point begun = Clock::now();
   const ResultMemory::Counts before = memory_.counts();
   LiveMonitor monitor(memory_);
@@ -253,7 +237,7 @@ bool LiveScript::Runner::pass(const KnobQuestion& question, const Pass& pass) {
   return true;
 }
 
-std::shared_ptr<RunDirectory> LiveScript::Runner::make_run(const KnobQuestion& question) const {
+std::shared_ptr<RunDirectory> LiveScript::make_run(const KnobQuestion& question) const {
   std::error_code ignored;
   fs::remove_all("run", ignored);
   RunSetup setup;
@@ -268,8 +252,8 @@ std::shared_ptr<RunDirectory> LiveScript::Runner::make_run(const KnobQuestion& q
 }
 
 // Returns the reason of a failure, or "".
-std::string LiveScript::Runner::run_script(const KnobQuestion& question, const Pass& pass,
-                                           LiveMonitor& monitor, Found& found, Json& knobs) {
+std::string LiveScript::run_script(const KnobQuestion& question, const Pass& pass, LiveMonitor& monitor,
+                                   Found& found, Json& knobs) {
   cli::RunCommand command;
   command.script = request_.name;
   command.seed = static_cast<std::uint64_t>(request_.seed);
@@ -328,7 +312,7 @@ std::string LiveScript::Runner::run_script(const KnobQuestion& question, const P
                             : lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 
-void LiveScript::Runner::say(const KnobQuestion& question, Found found, Json answer) {
+void LiveScript::say(const KnobQuestion& question, Found found, Json answer) {
   Json::List views;
   std::map<std::string, int> of_kind;
   const Seen* looked_at = nullptr;
@@ -361,10 +345,27 @@ void LiveScript::Runner::say(const KnobQuestion& question, Found found, Json ans
   asker_.send(Json::object({{"move", question.move}, {"part", "others"}}), view.values);
 }
 
-LiveScript::LiveScript(const ConfinedRequest& request, KnobAsker& asker)
-    : runner_(std::make_unique<Runner>(request, asker)) {}
-LiveScript::~LiveScript() = default;
+}  // namespace
 
-void LiveScript::answer(const KnobQuestion& question) { runner_->answer(question); }
+KnobQuestion knob_question(const std::string& text) {
+  const Json json = Json::parse(text, "a question");
+  const auto member = [&](const char* name) -> const Json& {
+    const Json* found = json.find(name);
+    if (found == nullptr) throw Error(ErrorCode::bad_file, std::string("a question has no `") + name + "`");
+    return *found;
+  };
+  KnobQuestion question;
+  question.move = static_cast<std::int64_t>(member("move").number());
+  for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
+  question.view = member("view").string();
+  question.map = member("map").string();
+  return question;
+}
+
+std::function<void(const KnobQuestion&)> live_script(const ConfinedRequest& request, KnobAsker& asker) {
+  return [script = std::make_shared<LiveScript>(request, asker)](const KnobQuestion& question) {
+    script->answer(question);
+  };
+}
 
 }  // namespace asperity::web

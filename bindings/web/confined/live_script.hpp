@@ -15,7 +15,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,20 +47,10 @@ class KnobAsker {
   virtual void send(const Json& answer, const std::vector<std::vector<float>>& fields) = 0;
 };
 
-class LiveScript {
- public:
-  // Keeps references. Takes over the standard output of the process.
-  LiveScript(const ConfinedRequest& request, KnobAsker& asker);
-  ~LiveScript();
-
-  // Calls `send` up to three times: the answer on fewer cells, the whole answer with the map in view, and
-  // the other maps.
-  void answer(const KnobQuestion& question);
-
- private:
-  class Runner;
-  std::unique_ptr<Runner> runner_;
-};
+// Keeps references. Takes over the standard output of the process. The result answers questions: it calls
+// `send` up to three times, with the answer on fewer cells, the whole answer with the map in view, and the
+// other maps.
+std::function<void(const KnobQuestion&)> live_script(const ConfinedRequest& request, KnobAsker& asker);
 
 // Returns the exit status if the socket is closed or a script cannot be stopped.
 int run_as_knobs_move(const ConfinedRequest& request, int socket);
