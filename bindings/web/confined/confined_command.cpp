@@ -166,7 +166,7 @@ std::vector<std::string> open_ways(const BarrierReport& report, const std::strin
   return open;
 }
 
-// Stop signals and Ctrl-Z.
+// Stop signals and Ctrl-Z, blocked in this thread and later threads.
 Descriptor signals_to_pass_on() {
   sigset_t set = cli::stop_signals();
   struct sigaction suspend {};
@@ -175,12 +175,15 @@ Descriptor signals_to_pass_on() {
   return Descriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
-// Follows the process of a command: passes on output and signals. Blocks the stop signals in this thread and
-// later threads.
+// Follows the process of a command: passes on output and signals.
 class CommandFollower final : public Follower {
  public:
-  CommandFollower(const ConfinedRequest& request, FollowBounds bounds)
-      : CommandFollower(request, std::move(bounds), signals_to_pass_on()) {}
+  // `signals`: blocked before the process and its threads begin.
+  CommandFollower(const ConfinedRequest& request, const FollowBounds& bounds, Descriptor signals)
+      : Follower(request, bounds.directory.string(), bounds), signals_(std::move(signals)) {
+    process_.events.reset();
+    also_watched_.push_back({signals_.get(), POLLIN, 0});
+  }
 
   // Returns the exit status.
   int carry_through() {
@@ -201,13 +204,6 @@ class CommandFollower final : public Follower {
   }
 
  private:
-  // First: signals are blocked before the process and its threads begin.
-  CommandFollower(const ConfinedRequest& request, FollowBounds bounds, Descriptor signals)
-      : Follower(request, bounds.directory.string(), bounds), signals_(std::move(signals)) {
-    process_.events.reset();
-    also_watched_.push_back({signals_.get(), POLLIN, 0});
-  }
-
   void take(const Descriptor& from, std::string_view text) override {
     if (&from == &process_.error) return pass_on_errors(text);
     std::fwrite(text.data(), 1, text.size(), stdout);
@@ -407,7 +403,7 @@ class Undertaking {
     request.barriers = barriers;
     request.command = {run_, replay_ == nullptr ? std::nullopt : std::optional(*replay_)};
     if (prepared_.lock) request.lock = prepared_.lock->descriptor();
-    return CommandFollower(request, bounds).carry_through();
+    return CommandFollower(request, bounds, signals_to_pass_on()).carry_through();
   }
 
   std::optional<std::string> manifest_text() const {
