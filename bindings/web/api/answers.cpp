@@ -20,19 +20,16 @@ namespace {
 constexpr double check_seconds = 3;
 constexpr std::chrono::seconds check_while_others_wait{1};
 
-HttpResponse file_stream(OpenFile file, std::string type, bool as_download) {
+HttpResponse file_stream(OpenFile file, const std::string& type, bool as_download) {
   auto reader = std::make_shared<Descriptor>(file.descriptor);
-  HttpResponse response;
-  response.type = std::move(type);
-  response.headers = {{"Cache-Control", "no-store"}};
-  if (as_download) response.headers.emplace_back("Content-Disposition", "attachment");
-  response.stream = [reader, left = file.bytes](std::string& piece) mutable {
+  HttpResponse response = stream_answer(type, [reader, left = file.bytes](std::string& piece) mutable {
     piece.resize(static_cast<std::size_t>(std::min<std::int64_t>(left, std::int64_t{64} << 10)));
     const ssize_t got = piece.empty() ? 0 : ::read(reader->get(), piece.data(), piece.size());
     piece.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
     left -= static_cast<std::int64_t>(piece.size());
     return !piece.empty() && left > 0;
-  };
+  });
+  if (as_download) response.headers.emplace_back("Content-Disposition", "attachment");
   return response;
 }
 
@@ -43,6 +40,10 @@ HttpResponse json_answer(const Json& json, int status) {
           .headers = {{"Cache-Control", "no-store"}},
           .type = "application/json",
           .body = json.text() + "\n"};
+}
+
+HttpResponse stream_answer(std::string type, std::function<bool(std::string&)> stream) {
+  return {.headers = {{"Cache-Control", "no-store"}}, .type = std::move(type), .stream = std::move(stream)};
 }
 
 HttpResponse problem_answer(int status, const std::string& message, const std::string& hint) {
@@ -114,15 +115,11 @@ HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpReques
     after = static_cast<std::int64_t>(std::min<std::uint64_t>(*number, INT64_MAX));
   }
   const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(5);
-  HttpResponse response;
-  response.type = "application/x-ndjson";
-  response.headers = {{"Cache-Control", "no-store"}};
-  response.stream = [run, after, until](std::string& piece) mutable {
+  return stream_answer("application/x-ndjson", [run, after, until](std::string& piece) mutable {
     bool more = true;
     piece = run->events.after(after, std::chrono::milliseconds(500), more);
     return more && std::chrono::steady_clock::now() < until;
-  };
-  return response;
+  });
 }
 
 HttpResponse file_answer(const PageRun& run, const std::string& name) {

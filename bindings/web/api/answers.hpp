@@ -16,6 +16,8 @@
 namespace asperity::web {
 
 HttpResponse json_answer(const Json& json, int status = 200);
+// A body in pieces.
+HttpResponse stream_answer(std::string type, std::function<bool(std::string&)> stream);
 HttpResponse problem_answer(int status, const std::string& message, const std::string& hint = {});
 
 // All throw Error{bad_value} naming key and expected value.

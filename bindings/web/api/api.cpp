@@ -384,13 +384,9 @@ HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const 
   const auto share = streams_.take(person, std::chrono::milliseconds(0));
   if (share == nullptr) return too_many_answers();
   const std::int64_t move = live_.move(*session, knobs, view, map);
-  HttpResponse response;
-  response.type = "application/octet-stream";
-  response.headers = {{"Cache-Control", "no-store"}};
-  response.stream = [session, move, share](std::string& piece) {
+  return stream_answer("application/octet-stream", [session, move, share](std::string& piece) {
     return session->answer(move, piece, std::chrono::milliseconds(500));
-  };
-  return response;
+  });
 }
 
 HttpResponse Api::begin_run(std::size_t person, const HttpRequest& request) {
