@@ -305,7 +305,8 @@ HttpResponse Api::route(const HttpRequest& request) {
   if (path == "about" && get) return about(*person);
   if (path == "complete" && post) return complete(*person, request);
   if (path == "check" && post) return check(*person, request);
-  if (path == "lessons" && get) return lessons(*person);
+  if (path == "lessons" && get)
+    return json_answer(lesson_entries(lessons_with(setup_.lessons), sees_notes(*person)));
   if (path.starts_with("lessons/") && get) return lesson(*person, path.substr(8));
   if (path == "runs" && get) return runs_of(*person);
   if (path == "room" && get && is_teacher(*person)) return room();
@@ -474,10 +475,6 @@ HttpResponse Api::of_run(std::size_t person, const HttpRequest& request, const s
   if (response.stream)
     response.stream = [share, next = std::move(response.stream)](std::string& piece) { return next(piece); };
   return response;
-}
-
-HttpResponse Api::lessons(std::size_t person) const {
-  return json_answer(lesson_entries(lessons_with(setup_.lessons), sees_notes(person)));
 }
 
 HttpResponse Api::lesson(std::size_t person, const std::string& name) const {

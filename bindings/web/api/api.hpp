@@ -124,7 +124,6 @@ class Api final : public HttpHandler {
   HttpResponse help(std::size_t person, const HttpRequest& request);
   HttpResponse of_run(std::size_t person, const HttpRequest& request, const std::shared_ptr<PageRun>& run,
                       const std::string& rest);
-  HttpResponse lessons(std::size_t person) const;
   HttpResponse lesson(std::size_t person, const std::string& name) const;
   bool sees_notes(std::size_t person) const { return !setup_.classroom || is_teacher(person); }
   HttpResponse hand(const HttpRequest& request);
