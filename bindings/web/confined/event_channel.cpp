@@ -11,10 +11,8 @@
 #include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/disk.hpp"
 #include "engine/core/quantity.hpp"
 
 namespace asperity::web {
