@@ -55,7 +55,6 @@ ConfinedRequest request_in(const Json& asked, Work work) {
   ConfinedRequest request{.work = work, .confinement = {}};
   request.confinement.memory_bytes = most_memory;
   request.script = text_of(asked, "script");
-  request.name = "script.lua";
   request.views = work == Work::run;
   if (const Json* knobs = asked.find("knobs"))
     for (const auto& [name, value] : knobs->members()) give_knob(request.knobs, name, value.string());

@@ -154,7 +154,6 @@ Json check_script(const std::string& script, const std::filesystem::path& scratc
   request.confinement.file_bytes = 1 << 16;
   request.confinement.processor_seconds = static_cast<std::int64_t>(check_seconds) + 2;
   request.script = script;
-  request.name = "script.lua";
   request.seconds = check_seconds;
   request.barriers = barriers;
   const auto until = std::chrono::steady_clock::now() + check_while_others_wait;

@@ -184,7 +184,6 @@ void each_member(Each& each, ConfinedRequest& request) {
   each.optional("places", held.places);
   each.optional("work_folder", held.work);
   each("script", request.script);
-  each("name", request.name);
   each("seed", request.seed);
   each("seconds", request.seconds);
   each("threads", request.threads);
@@ -215,7 +214,7 @@ std::string bytes_of(std::string_view characters) {
 
 cli::RunCommand page_command(const ConfinedRequest& request, cli::RunObserver& observer) {
   cli::RunCommand command;
-  command.script = request.name;
+  command.script = page_script;
   command.text = request.script;
   command.out = ".";
   command.threads = request.threads;

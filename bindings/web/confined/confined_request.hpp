@@ -28,11 +28,13 @@ struct CarriedCommand {
   std::optional<cli::ReplayCommand> replay{};
 };
 
+// The name of a page's script, in errors and records.
+inline constexpr const char* page_script = "script.lua";
+
 struct ConfinedRequest {
   Work work = Work::run;
   Confinement confinement;
   std::string script{};
-  std::string name{};  // in errors: "script.lua"
   std::int64_t seed = 1;
   double seconds = 60;  // time limit of the script
   int threads = 1;

@@ -241,7 +241,7 @@ std::shared_ptr<RunDirectory> LiveScript::make_run(const KnobQuestion& question)
   std::error_code ignored;
   fs::remove_all("run", ignored);
   RunSetup setup;
-  setup.script_name = request_.name;
+  setup.script_name = page_script;
   setup.script_text = request_.script;
   setup.out = "run";
   setup.scratch = true;
@@ -255,7 +255,7 @@ std::shared_ptr<RunDirectory> LiveScript::make_run(const KnobQuestion& question)
 std::string LiveScript::run_script(const KnobQuestion& question, const Pass& pass, LiveMonitor& monitor,
                                    Found& found, Json& knobs) {
   cli::RunCommand command;
-  command.script = request_.name;
+  command.script = page_script;
   command.seed = static_cast<std::uint64_t>(request_.seed);
   command.knobs = question.knobs;
   if (cli::Watchdog::has_clock) command.limit_time = request_.seconds;

@@ -45,7 +45,6 @@ ConfinedRequest confined_request(Work work, const RunRequest& asked, const RunLi
           std::max(1, limits.threads) +
       1;
   request.script = asked.script;
-  request.name = "script.lua";
   request.seed = asked.seed;
   request.seconds = limits.seconds;
   request.threads = limits.threads;
