@@ -282,12 +282,6 @@ void LiveSessions::end(std::size_t owner, const std::string& id) {
            "it was ended", gone);
 }
 
-std::size_t LiveSessions::count() const {
-  const std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(
-      std::ranges::count_if(sessions_, [](const auto& entry) { return !entry.second->over(); }));
-}
-
 void LiveSessions::close() {
   std::vector<std::shared_ptr<LiveSession>> gone;
   {

@@ -100,7 +100,6 @@ class LiveSessions {
   std::int64_t move(LiveSession& session, const GivenKnobs& knobs, const std::string& view,
                     const std::string& map);
   void end(std::size_t owner, const std::string& id);
-  std::size_t count() const;
   void close();
 
  private:
