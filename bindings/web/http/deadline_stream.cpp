@@ -96,15 +96,13 @@ std::string_view head_problem(std::string_view head) {
 }
 
 bool DeadlineStream::wait_for_request() {
-  if (from_ < buffer_.size()) return true;
-  return (wait_until(socket_, POLLIN, Clock::now() + setup_.to_rest) & POLLIN) != 0;
-}
-
-void DeadlineStream::begin_request() {
+  if (from_ == buffer_.size() && (wait_until(socket_, POLLIN, Clock::now() + setup_.to_rest) & POLLIN) == 0)
+    return false;
   arrived_by_ = Clock::now() + setup_.to_arrive;
   may_read_ = setup_.most_head_bytes;
   blocked_ = {};
   sent_ = 0;
+  return true;
 }
 
 ssize_t DeadlineStream::receive() {

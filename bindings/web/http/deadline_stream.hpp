@@ -24,9 +24,8 @@ class DeadlineStream final : public httplib::Stream {
  public:
   DeadlineStream(int socket, const HttpSetup& setup) : socket_(socket), setup_(setup) {}
 
-  // Waits for at most the idle time.
+  // Waits for at most the idle time. The limits of a request apply from here.
   bool wait_for_request();
-  void begin_request();
   enum class Head { whole, too_long, not_there };
   // Blocks; read() returns the head later. `head` is valid until the next read().
   Head wait_for_head(std::string_view& head);

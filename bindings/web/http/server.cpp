@@ -273,7 +273,6 @@ bool Server::process_and_close_socket(int socket) {
   for (int k = 0; k < most_requests && svr_sock_ >= 0; ++k) {
     Connections::Waiting waiting(connections_, socket);
     if (!stream.wait_for_request()) break;
-    stream.begin_request();
     std::string_view head;
     const DeadlineStream::Head arrived = stream.wait_for_head(head);
     if (arrived == DeadlineStream::Head::not_there) break;
