@@ -20,7 +20,6 @@
 #include "bindings/cli/plain_streams.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/api/lesson_folder.hpp"
-#include "bindings/web/confined/confined.hpp"
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/serve_command.hpp"
 #include "engine/core/error.hpp"

@@ -16,7 +16,6 @@
 
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/web/api/lesson_folder.hpp"
-#include "bindings/web/confined/confined.hpp"
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/serve_command.hpp"
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/confined/confined.hpp"
-
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `asperity run --confined` for a foreign script. The program starts itself as a confined process
-// (confined.hpp), which reads the script and the --read folders, writes the run directory and the given
+// (confined_main), which reads the script and the --read folders, writes the run directory and the given
 // store, and reaches no other file, process or network. This side passes on output, exit status and signals,
 // draws charts, and enforces limits of time and disk. Resume and replay are confined too.
 #pragma once
@@ -17,6 +17,11 @@ bool to_be_confined(const cli::ReplayCommand& command);
 // confined.
 int run_behind_barriers(const cli::RunCommand& command);
 int replay_behind_barriers(const cli::ReplayCommand& command);
+
+// `asperity --confined`, the child of `asperity serve` and `asperity run --confined`: reads a request from
+// standard input, confines itself (sandbox/confinement.hpp), and then runs or checks a script, runs a command
+// or gnuplot, or tries the barriers. Returns the exit status. main() must call this first.
+int confined_main();
 
 // In the confined process: returns the command's exit status. `lock`: open lock file of the run directory, or
 // -1.

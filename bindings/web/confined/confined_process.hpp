@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parent's side of a confined process (confined.hpp): this program started again, inheriting only its
+// The parent's side of a confined process (confined.cpp): this program started again, inheriting only its
 // pipes.
 #pragma once
 
