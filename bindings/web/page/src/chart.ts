@@ -8,7 +8,6 @@ import { svg } from './dom';
 import type { Ink } from './colour';
 import type { Notebook } from './run';
 import { axisFor, axisOfNames, type Axis } from './ticks';
-import type { Tried } from './trail';
 import { greatestOf, label, numberText, scaleFor, shareOf, type Scale } from './units';
 
 export const fontSize = 15; // px
@@ -16,6 +15,12 @@ const lineHeight = 24; // px
 const symbols = ['circle', 'square', 'triangle', 'diamond'] as const;
 const dashes = ['9 6', '12 5 3 5', '3 5', '6 4 12 4']; // px
 const mostNamed = 16;
+
+/** A notebook's rows at knob values tried before. The chart draws them faint. */
+export interface Tried {
+  notebook: Notebook;
+  values: string; // of the knobs
+}
 
 export interface Drawn {
   element: SVGElement;

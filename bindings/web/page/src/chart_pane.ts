@@ -2,13 +2,44 @@
 // The script's own charts, and charts of any columns of one unit. A choice stays with the chart's name from
 // run to run. The drawing library is loaded with the first chart.
 
+import type { Tried } from './chart';
 import { chartsOf, columnsLike, fitted, type ChartChoice, type RunChart } from './chart_choice';
 import { inkNow, lightInk } from './colour';
 import { Choice, h, saveAs } from './dom';
+import { valuesText } from './knobs';
 import { columnsAlong, numericColumns, type Run } from './run';
-import { Trail, type Tried } from './trail';
 
 type Drawing = typeof import('./chart');
+
+const most = 40; // runs
+
+/** Runs of a script at the knob values tried before. */
+class Trail {
+  private runs: Run[] = [];
+
+  /** Another script starts another trail. */
+  add(run: Run): void {
+    if (run.status !== 'done' || run === this.runs.at(-1)) return;
+    if (run.script !== this.runs[0]?.script) this.runs = [];
+    this.runs = [...this.runs, run].slice(-most);
+  }
+
+  clear(): void {
+    this.runs = [];
+  }
+
+  /** Runs of this script at other values, with this notebook; the last of equal values. */
+  before(run: Run, notebook: string): Tried[] {
+    const known = new Map<string, Tried>();
+    for (const one of this.runs) {
+      const found = one.notebooks.get(notebook);
+      const values = valuesText(one.knobs);
+      if (one.script === run.script && values && found) known.set(values, { notebook: found, values });
+    }
+    known.delete(valuesText(run.knobs));
+    return [...known.values()];
+  }
+}
 
 const several = '\n'; // y: all columns
 
