@@ -13,7 +13,6 @@
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/web/confined/confined_command.hpp"
-#include "bindings/web/confined/confined_request.hpp"
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/confined/live_script.hpp"
 #include "bindings/web/sandbox/frames.hpp"

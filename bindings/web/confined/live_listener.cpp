@@ -2,14 +2,12 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "bindings/cli/disk_bound.hpp"
 #include "bindings/lua/runtime/state.hpp"
