@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -263,15 +262,13 @@ std::optional<HttpResponse> Api::refusal_of(const HttpRequest& head) const {
     return has_body ? std::optional(problem_answer(400, "a request of this method has no body"))
                     : std::nullopt;
   const std::string* length = head.header("content-length");
-  std::size_t bytes = 0;
   if (length == nullptr || head.headers.contains("transfer-encoding") ||
       head.headers.contains("content-encoding"))
     return problem_answer(411, "the body must come as it is, with its length");
-  const auto [end, wrong] = std::from_chars(length->data(), length->data() + length->size(), bytes);
-  if (wrong != std::errc() || end != length->data() + length->size())
-    return problem_answer(400, "the length of the body is no number");
-  if (bytes > HttpSetup{}.most_body_bytes)
-    return problem_answer(413, "the body has " + std::to_string(bytes) + " bytes",
+  const std::optional<std::uint64_t> bytes = count_in(*length);
+  if (!bytes) return problem_answer(400, "the length of the body is no number");
+  if (*bytes > HttpSetup{}.most_body_bytes)
+    return problem_answer(413, "the body has " + std::to_string(*bytes) + " bytes",
                           "a request may have " + std::to_string(HttpSetup{}.most_body_bytes));
   const std::string* type = head.header("content-type");
   if (type == nullptr || !is_json(*type))
