@@ -244,14 +244,13 @@ std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& han
 // Through a page that redirects: the address contains the token, and program arguments are public.
 void open_in_browser(const std::string& url, const fs::path& folder) {
   const fs::path page = folder / open_page;
-  const int file = ::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  const ScopedFile file(::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   const bool written =
-      file >= 0 && write_all(file,
-                             "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
-                             "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
-                             "content=\"0; url=" +
-                                 url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n") == 0;
-  if (file >= 0) ::close(file);
+      file.number >= 0 && write_all(file.number,
+                                    "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
+                                    "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
+                                    "content=\"0; url=" +
+                                        url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n") == 0;
   if (!written) {
     std::fprintf(stderr, "asperity: %s cannot be written; open the address above\n", page.c_str());
     return;
