@@ -70,8 +70,7 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
   const Json given = given_knobs_json(command.knobs);
   const Json then = given_knobs_json(recorded.knobs);
   for (const auto& [name, knob] : given.members())
-    if (const Json* as_recorded = then.find(name); as_recorded == nullptr || !(*as_recorded == knob))
-      changed.push_back("the knob " + asperity::quoted(name));
+    if (then[name] != knob) changed.push_back("the knob " + asperity::quoted(name));
   const std::string share = command.shard ? command.shard->text() : "";
   if ((command.shard || command.merge_only) && share != recorded.shard)
     changed.push_back("the share (" + (recorded.shard.empty() ? "all cases" : "shard " + recorded.shard) +

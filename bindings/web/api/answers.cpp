@@ -71,9 +71,8 @@ std::string text_member(const Json& body, const std::string& key, std::size_t lo
 }
 
 std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t otherwise) {
-  const Json* found = body.find(key);
-  if (found == nullptr || found->is_null()) return otherwise;
-  const double number = found->number();
+  if (body[key].is_null()) return otherwise;
+  const double number = body[key].number();
   if (!(number >= 0 && number <= 1e15) || number != std::floor(number))
     throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is " + format_short(number),
                 "give a whole number from 0 on");
@@ -82,10 +81,10 @@ std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t
 
 GivenKnobs knobs_member(const Json& body, const std::string& key) {
   constexpr std::size_t most = 100, longest = 100;
-  const Json* found = body.find(key);
-  if (found == nullptr || found->is_null()) return {};
-  if (!found->is_object()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no object");
-  const Json::Members& members = found->members();
+  const Json& given = body[key];
+  if (given.is_null()) return {};
+  if (!given.is_object()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no object");
+  const Json::Members& members = given.members();
   if (members.size() > most)
     throw Error(ErrorCode::bad_value,
                 asperity::quoted(key) + " has " + std::to_string(members.size()) + " members",
@@ -103,8 +102,7 @@ GivenKnobs knobs_member(const Json& body, const std::string& key) {
 }
 
 bool flag_member(const Json& body, const std::string& key) {
-  const Json* found = body.find(key);
-  return found != nullptr && !found->is_null() && found->boolean();
+  return !body[key].is_null() && body[key].boolean();
 }
 
 HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpRequest& request) {

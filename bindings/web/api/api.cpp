@@ -440,8 +440,7 @@ HttpResponse Api::people() const {
 // {lesson, guesses, why?}
 HttpResponse Api::predict(std::size_t person, const HttpRequest& request) {
   const Json body = body_of(request);
-  const Json* given = body.find("guesses");
-  const Json guesses = given == nullptr ? Json() : *given;
+  const Json& guesses = body["guesses"];
   const std::string why = body.find("why") != nullptr ? text_member(body, "why", RoomBoard::longest_why) : "";
   board_.predict(person, text_member(body, "lesson", RoomBoard::longest_name), guesses, why);
   return json_answer(Json::object({{"kept", guesses.members().size()}}));

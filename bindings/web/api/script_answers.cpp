@@ -82,16 +82,14 @@ Json check_answer(const std::string& events) {
   for (std::string line; std::getline(lines, line);) {
     try {
       const Json event = Json::parse(line, "an event");
-      const Json *type = event.find("type"), *message = event.find("message"), *why = event.find("why");
-      if (type == nullptr) continue;
-      if (type->string() == "error" && message != nullptr)
-        marks.push_back(mark("error", message->string(), event.find("line")));
-      if (type->string() == "chart") charts.push_back(event);
+      const std::string& type = event["type"].string();
+      if (type == "error") marks.push_back(mark("error", event["message"].string(), event.find("line")));
+      if (type == "chart") charts.push_back(event);
       if (const Json* knobs = event.find("knobs"); knobs != nullptr && !knobs->members().empty())
         answer.set("knobs", *knobs);
-      if (type->string() != "ended" || why == nullptr) continue;
+      if (type != "ended" || event.find("why") == nullptr) continue;
       ended = true;
-      if (const auto reached = line_in(why->string())) answer.set("checked_to", *reached);
+      if (const auto reached = line_in(event["why"].string())) answer.set("checked_to", *reached);
     } catch (const Error&) {
       continue;
     }

@@ -51,14 +51,7 @@ Json manifest_in(const std::string& folder) {
   }
 }
 
-const Json* found_in(const Json& record, const char* name) {
-  return record.is_object() ? record.find(name) : nullptr;
-}
-
-bool was_confined(const Json& manifest) {
-  const Json* const said = found_in(manifest, "confined");
-  return said != nullptr && *said == Json(true);
-}
+bool was_confined(const Json& manifest) { return manifest["confined"] == Json(true); }
 
 void say_where_a_link_leads(const std::string& folder, const fs::path& real) {
   std::string named = folder;
@@ -310,11 +303,8 @@ class Undertaking {
     const Json manifest = manifest_in(folder);
     if (manifest.is_null()) return;
     purpose_ = purpose;
-    const Json* const rest = found_in(manifest, "unhashed");
-    const Json* const barriers = rest == nullptr ? nullptr : found_in(*rest, "barriers");
-    const Json* const read = barriers == nullptr ? nullptr : found_in(*barriers, "read");
-    if (read != nullptr)
-      for (const Json& place : read->list()) recorded_.push_back(place.string());
+    if (const Json& read = manifest["unhashed"]["barriers"]["read"]; !read.is_null())
+      for (const Json& place : read.list()) recorded_.push_back(place.string());
     if (replay_ != nullptr) places_.add(folder, canonical(folder, "replay"), false);
   }
 
@@ -343,10 +333,8 @@ class Undertaking {
   void make_folders() {
     RunSetup setup;
     setup.script_name = run_.script.empty() ? "replay" : run_.script;
-    if (replay_ != nullptr)
-      if (const Json manifest = manifest_in(replay_->recorded);
-          const Json* script = found_in(manifest, "script"))
-        if (const Json* name = found_in(*script, "name")) setup.script_name = name->string();
+    const Json manifest = replay_ == nullptr ? Json() : manifest_in(replay_->recorded);
+    if (const Json& name = manifest["script"]["name"]; !name.is_null()) setup.script_name = name.string();
     if (run_.out) setup.out = *run_.out;
     if (run_.resume) setup.resume = *run_.resume;
     prepared_ = RunDirectory::prepared_for(setup);

@@ -157,13 +157,6 @@ bool answer_drawing(int socket, const std::vector<std::string>& barriers, const 
 
 constexpr std::size_t ways_out = 4;
 
-const Json& report_member(const Json& json, const char* name) {
-  const Json* found = json.find(name);
-  if (found == nullptr)
-    throw Error(ErrorCode::internal, "the trial of the barriers says nothing of " + asperity::quoted(name));
-  return *found;
-}
-
 }  // namespace
 
 Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
@@ -352,12 +345,11 @@ BarrierReport try_out_barriers(const std::string& folder) {
     }
     const std::string all = done.output.substr(0, end);
     const Json json = Json::parse(all.substr(all.rfind('\n') + 1), "the trial of the barriers");
-    for (const Json& name : report_member(json, "made").list()) report.made.push_back(name.string());
-    for (const Json& name : report_member(json, "missing").list()) report.missing.push_back(name.string());
-    for (const Json& barrier : report_member(json, "barriers").list())
-      report.tried.push_back(
-          {report_member(barrier, "name").string(), report_member(barrier, "sentence").string(),
-           report_member(barrier, "holds").boolean(), report_member(barrier, "by").string()});
+    for (const Json& name : json["made"].list()) report.made.push_back(name.string());
+    for (const Json& name : json["missing"].list()) report.missing.push_back(name.string());
+    for (const Json& barrier : json["barriers"].list())
+      report.tried.push_back({barrier["name"].string(), barrier["sentence"].string(),
+                              barrier["holds"].boolean(), barrier["by"].string()});
   } catch (const Error& error) {
     report.problem = error.what();
   }

@@ -28,11 +28,6 @@ const char* stop_name(StopReason reason) {
                                               : "";
 }
 
-Json field_or_null(const Json& fields, std::string_view name) {
-  const Json* found = fields.find(name);
-  return found == nullptr ? Json() : *found;
-}
-
 template <class T>
 std::shared_ptr<const T> as(const lua::Value& value) {
   const auto* object = std::get_if<lua::Object>(&value.data);
@@ -186,31 +181,29 @@ std::vector<Seen> seen_in(const std::string& call, const lua::Values& results) {
 
 std::optional<Json> told_of(std::string_view event, const Json& fields) {
   if (event == "row") {
-    Json units = field_or_null(fields, "units");
+    Json units = fields["units"];
     Json told = Json::object({{"type", "row"},
-                              {"notebook", field_or_null(fields, "notebook")},
-                              {"row", field_or_null(fields, "row")},
+                              {"notebook", fields["notebook"]},
+                              {"row", fields["row"]},
                               {"units", units.is_null() ? Json::object() : std::move(units)}});
-    if (Json columns = field_or_null(fields, "columns"); !columns.is_null())
-      told.set("columns", std::move(columns));
+    if (Json columns = fields["columns"]; !columns.is_null()) told.set("columns", std::move(columns));
     return told;
   }
   if (event == "study end")
     return Json::object({{"type", "study"},
-                         {"name", field_or_null(fields, "name")},
-                         {"rows", field_or_null(field_or_null(fields, "found"), "rows")},
-                         {"seconds", field_or_null(field_or_null(fields, "unhashed"), "seconds")}});
+                         {"name", fields["name"]},
+                         {"rows", fields["found"]["rows"]},
+                         {"seconds", fields["unhashed"]["seconds"]}});
   if (event == "chart") {
-    const Json study = field_or_null(fields, "study"), notebook = field_or_null(fields, "notebook");
+    const Json study = fields["study"], notebook = fields["notebook"];
     if (!study.is_null()) return Json::object({{"type", "chart"}, {"study", study}});
     if (notebook.is_null()) return {};
-    return Json::object(
-        {{"type", "chart"}, {"notebook", notebook}, {"chart", field_or_null(fields, "unhashed")}});
+    return Json::object({{"type", "chart"}, {"notebook", notebook}, {"chart", fields["unhashed"]}});
   }
   if (event != "expect") return {};
-  const Json label = field_or_null(fields, "label"), sentence = field_or_null(fields, "sentence");
+  const Json label = fields["label"], sentence = fields["sentence"];
   const std::string text = (label.is_null() ? "" : label.string() + ": ") + sentence.string();
-  return Json::object({{"type", "expectation"}, {"text", text}, {"held", field_or_null(fields, "passed")}});
+  return Json::object({{"type", "expectation"}, {"text", text}, {"held", fields["passed"]}});
 }
 
 void EventChannel::send(const Json& event) {

@@ -334,9 +334,9 @@ void LiveScript::say(const KnobQuestion& question, Found found, Json answer) {
   answer.set("events", std::move(found.events)).set("views", std::move(views));
   if (looked_at != nullptr)
     answer.set("view", Json::object({{"name", name_of_it}, {"title", view.title}, {"fields", view.fields}}));
-  const bool whole = answer.find("factor")->number() == 1;
+  const bool whole = answer["factor"].number() == 1;
   const auto in_view = std::ranges::find_if(
-      view.fields, [&](const Json& field) { return field.find("name")->string() == question.map; });
+      view.fields, [&](const Json& field) { return field["name"].string() == question.map; });
   const auto first = in_view - view.fields.begin();
   if (!whole || in_view == view.fields.end() || view.fields.size() == 1)
     return asker_.send(answer, view.values);
@@ -349,16 +349,11 @@ void LiveScript::say(const KnobQuestion& question, Found found, Json answer) {
 
 KnobQuestion knob_question(const std::string& text) {
   const Json json = Json::parse(text, "a question");
-  const auto member = [&](const char* name) -> const Json& {
-    const Json* found = json.find(name);
-    if (found == nullptr) throw Error(ErrorCode::bad_file, std::string("a question has no `") + name + "`");
-    return *found;
-  };
   KnobQuestion question;
-  question.move = static_cast<std::int64_t>(member("move").number());
-  for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
-  question.view = member("view").string();
-  question.map = member("map").string();
+  question.move = static_cast<std::int64_t>(json["move"].number());
+  for (const auto& [name, value] : json["knobs"].members()) give_knob(question.knobs, name, value.string());
+  question.view = json["view"].string();
+  question.map = json["map"].string();
   return question;
 }
 

@@ -183,10 +183,8 @@ void LiveSession::work() {
 // Throws Error{bad_file}.
 void LiveSession::take(const std::vector<std::string>& texts) {
   const Json json = Json::parse(texts.empty() ? std::string() : texts.front(), "an answer");
-  const Json *number = json.find("move"), *part = json.find("part");
-  if (number == nullptr || part == nullptr) throw Error(ErrorCode::bad_file, "an answer says not of what");
-  const double told = number->number();
-  const bool last = part->string() != "coarse" && json.find("first") == nullptr;
+  const double told = json["move"].number();
+  const bool last = json["part"].string() != "coarse" && json.find("first") == nullptr;
   const std::vector<std::string_view> all(texts.begin(), texts.end());
   const std::lock_guard lock(mutex_);
   if (!(told > static_cast<double>(answered_) && told <= static_cast<double>(moves_))) return;

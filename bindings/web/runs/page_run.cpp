@@ -200,13 +200,12 @@ class RunFollower final : public Follower {
                                                    "expectation", "error", "chart", "study"};
     try {
       const Json event = Json::parse(line, "an event");
-      const Json* type = event.is_object() ? event.find("type") : nullptr;
-      if (type == nullptr) return;
-      if (type->string() == "ended") {
+      const std::string& type = event["type"].string();
+      if (type == "ended") {
         if (const Json* stopped = event.find("stopped")) stopped_ = stopped->string();
         if (const Json* why = event.find("why")) why_ = why->string().substr(0, 2000);
-      } else if (std::ranges::find(told, type->string()) != told.end()) {
-        run_.events.add(type->string(), event);
+      } else if (std::ranges::find(told, type) != told.end()) {
+        run_.events.add(type, event);
       }
     } catch (const Error&) {
     }
