@@ -21,7 +21,7 @@ constexpr double check_seconds = 3;
 constexpr std::chrono::seconds check_while_others_wait{1};
 
 HttpResponse file_stream(OpenFile file, const std::string& type, bool as_download) {
-  auto reader = std::make_shared<Descriptor>(file.descriptor);
+  auto reader = std::make_shared<Descriptor>(std::move(file.file));
   HttpResponse response = stream_answer(type, [reader, left = file.bytes](std::string& piece) mutable {
     piece.resize(static_cast<std::size_t>(std::min<std::int64_t>(left, std::int64_t{64} << 10)));
     const ssize_t got = piece.empty() ? 0 : ::read(reader->get(), piece.data(), piece.size());
@@ -122,12 +122,12 @@ HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpReques
 
 HttpResponse file_answer(const PageRun& run, const std::string& name) {
   const bool hidden = name.starts_with('.') || name.find("/.") != std::string::npos;
-  const auto file = hidden ? std::nullopt : open_plain_file(run.directory, name);
+  auto file = hidden ? std::nullopt : open_plain_file(run.directory, name);
   if (!file) return problem_answer(404, "the run has no such file");
   // A script's file must not act as a page of this server.
   const std::string type = media_type(name);
   const bool harmless = type.starts_with("text/plain") || type.starts_with("text/csv") || type == "image/png";
-  return file_stream(*file,
+  return file_stream(*std::move(file),
                      type.starts_with("text/html") || type.starts_with("text/javascript")
                          ? "text/plain; charset=utf-8"
                          : type,
@@ -138,9 +138,9 @@ HttpResponse view_answer(const PageRun& run, const std::string& name) {
   const bool plain = !name.empty() && name.size() < 64 && std::ranges::all_of(name, [](unsigned char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
   });
-  const auto file = plain ? open_plain_file(run.directory, ".views/" + name + ".json") : std::nullopt;
+  auto file = plain ? open_plain_file(run.directory, ".views/" + name + ".json") : std::nullopt;
   if (!file) return problem_answer(404, "the run has no such view");
-  return file_stream(*file, "application/json", false);
+  return file_stream(*std::move(file), "application/json", false);
 }
 
 Json check_script(const std::string& script, const std::filesystem::path& scratch,

@@ -16,6 +16,7 @@
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/confined/live_script.hpp"
 #include "bindings/web/sandbox/frames.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
@@ -96,10 +97,8 @@ int confined_main() {
   try {
     const ConfinedRequest request = confined_request(
         Json::parse(std::string(std::istreambuf_iterator<char>(std::cin), {}), "the request"));
-    if (const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC); nothing >= 0) {
-      ::dup2(nothing, STDIN_FILENO);
-      ::close(nothing);
-    }
+    if (const Descriptor nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC)); nothing.get() >= 0)
+      ::dup2(nothing.get(), STDIN_FILENO);
     load_system_call_filter();
     if (request.work == Work::run || request.work == Work::command || request.work == Work::live)
       prepare_run();

@@ -18,7 +18,6 @@
 
 #include "bindings/cli/disk_bound.hpp"
 #include "bindings/web/sandbox/frames.hpp"
-#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
@@ -158,15 +157,6 @@ bool answer_drawing(int socket, const std::vector<std::string>& barriers, const 
 constexpr std::size_t ways_out = 4;
 
 }  // namespace
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(number_, other.number_);
-  return *this;
-}
-
-void Descriptor::reset() {
-  if (number_ >= 0) ::close(std::exchange(number_, -1));
-}
 
 ConfinedProcess::ConfinedProcess(const ConfinedRequest& request, const std::string& folder) {
   const Descriptor input = content(to_json(request).text());

@@ -19,22 +19,9 @@
 #include <vector>
 
 #include "bindings/web/confined/confined_request.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 
 namespace asperity::web {
-
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { reset(); }
-  Descriptor(Descriptor&& other) noexcept : number_(other.number_) { other.number_ = -1; }
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  int get() const { return number_; }
-  void reset();
-
- private:
-  int number_ = -1;
-};
 
 // Dies with its creating thread.
 class ConfinedProcess {

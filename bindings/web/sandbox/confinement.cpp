@@ -23,11 +23,11 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
-#include <list>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/sanitizers.hpp"
@@ -40,11 +40,13 @@ namespace {
 constexpr int apart = CLONE_NEWNS | CLONE_NEWNET | CLONE_NEWIPC | CLONE_NEWUTS;
 
 bool write_to(const char* file, const std::string& text) {
-  const int descriptor = ::open(file, O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool whole = ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  ::close(descriptor);
-  return whole;
+  const Descriptor opened(::open(file, O_WRONLY | O_CLOEXEC));
+  return opened.get() >= 0 &&
+         ::write(opened.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+bool opens(const char* file, int how, mode_t mode = 0600) {
+  return Descriptor(::open(file, how | O_CLOEXEC, mode)).get() >= 0;
 }
 
 // Only the own user and group.
@@ -86,30 +88,24 @@ class Bound {
  public:
   explicit Bound(const Place& of)
       : place(&of), folder_(::open(of.folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)) {
-    if (folder_ >= 0 && ::fstatvfs(folder_, &flags_) != 0) shut(folder_);
-    if (folder_ >= 0 && knows_trees())
-      tree_ = static_cast<int>(
-          ::syscall(open_tree_call, folder_, "", copied | O_CLOEXEC | of_descriptor | recursive));
+    if (folder_.get() >= 0 && ::fstatvfs(folder_.get(), &flags_) != 0) folder_.reset();
+    if (folder_.get() >= 0 && knows_trees())
+      tree_ = Descriptor(static_cast<int>(
+          ::syscall(open_tree_call, folder_.get(), "", copied | O_CLOEXEC | of_descriptor | recursive)));
   }
-  ~Bound() {
-    shut(tree_);
-    shut(folder_);
-  }
-  Bound(const Bound&) = delete;
-  Bound& operator=(const Bound&) = delete;
 
-  bool open() const { return folder_ >= 0 && (tree_ >= 0 || !knows_trees()); }
+  bool open() const { return folder_.get() >= 0 && (tree_.get() >= 0 || !knows_trees()); }
   // No devices, no set-user-ID; programs and writing if allowed.
   bool mount_at(const std::string& at) const {
-    if (tree_ >= 0) {
+    if (tree_.get() >= 0) {
       const MountAttributes wanted{attribute_no_setuid | attribute_no_devices |
                                    (place->programs ? 0 : attribute_no_programs) |
                                    (place->write ? 0 : attribute_read_only)};
-      return ::syscall(mount_setattr_call, tree_, "", of_descriptor | recursive, &wanted, sizeof wanted) ==
-                 0 &&
-             ::syscall(move_mount_call, tree_, "", AT_FDCWD, at.c_str(), from_descriptor) == 0;
+      return ::syscall(mount_setattr_call, tree_.get(), "", of_descriptor | recursive, &wanted,
+                       sizeof wanted) == 0 &&
+             ::syscall(move_mount_call, tree_.get(), "", AT_FDCWD, at.c_str(), from_descriptor) == 0;
     }
-    const std::string source = "/proc/self/fd/" + std::to_string(folder_);
+    const std::string source = "/proc/self/fd/" + std::to_string(folder_.get());
     if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND, nullptr) != 0) return false;
     // Keeps the file system's own restrictions.
     unsigned long kept = MS_NOSUID | MS_NODEV;
@@ -124,14 +120,7 @@ class Bound {
   const Place* place;
 
  private:
-  static void shut(int& descriptor) {
-    const int number = std::exchange(descriptor, -1);
-    const int reason = errno;
-    if (number >= 0) ::close(number);
-    errno = reason;
-  }
-
-  int folder_ = -1, tree_ = -1;
+  Descriptor folder_, tree_;
   struct statvfs flags_ {};
 };
 
@@ -168,30 +157,23 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   // Parents before their subfolders.
   std::vector<Place> sorted = places;
   std::ranges::stable_sort(sorted, {}, [](const Place& place) { return place.seen.size(); });
-  std::list<Bound> bound;
-  for (const Place& place : sorted) {
-    Bound& one = bound.emplace_back(place);
-    if (!one.open()) return root_problem("the folder " + place.folder);
-  }
-  const int under = ::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
-  if (under < 0) return root_problem("the working directory");
-  if (::mount("none", here.c_str(), "tmpfs", MS_NOSUID | MS_NOEXEC, "size=1m,nr_inodes=4k,mode=755") != 0) {
-    ::close(under);
+  std::vector<Bound> bound;
+  for (const Place& place : sorted)
+    if (!bound.emplace_back(place).open()) return root_problem("the folder " + place.folder);
+  const Descriptor under(::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (under.get() < 0) return root_problem("the working directory");
+  if (::mount("none", here.c_str(), "tmpfs", MS_NOSUID | MS_NOEXEC, "size=1m,nr_inodes=4k,mode=755") != 0)
     return root_problem("a root");
-  }
   // A failure now unmounts the root.
   const auto undo = [&](const std::string& step) {
     std::string text = root_problem(step);
     ::umount2(here.c_str(), MNT_DETACH);
-    if (::fchdir(under) != 0) text += " (and the way back)";
-    ::close(under);
+    if (::fchdir(under.get()) != 0) text += " (and the way back)";
     return text;
   };
   const std::string device = here + "/dev/null";
   if (!make_folders(here, "/dev") || !make_folders(here, work)) return undo("its folders");
-  const int null = ::open(device.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (null < 0) return undo("/dev/null");
-  ::close(null);
+  if (!opens(device.c_str(), O_WRONLY | O_CREAT, 0666)) return undo("/dev/null");
   if (::mount("/dev/null", device.c_str(), nullptr, MS_BIND, nullptr) != 0) return undo("/dev/null");
   for (const Bound& one : bound)
     if (!make_folders(here, one.place->seen) || !one.mount_at(here + one.place->seen))
@@ -201,7 +183,6 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   if (::syscall(SYS_pivot_root, ".", ".") != 0) return undo("the root");
   // The old root covers the new one.
   ::umount2(".", MNT_DETACH);
-  ::close(under);
   if (::chdir(work.c_str()) != 0) return root_problem("its directory");
   return "";
 }
@@ -228,14 +209,11 @@ std::uint64_t every_right(int version) {
 }
 
 // A missing place needs no rule.
-bool allow(int ruleset, const char* place, std::uint64_t rights) {
-  landlock_path_beneath_attr rule{};
-  rule.parent_fd = ::open(place, O_PATH | O_CLOEXEC);
-  if (rule.parent_fd < 0) return true;
-  rule.allowed_access = rights;
-  const long added = ::syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
-  ::close(rule.parent_fd);
-  return added == 0;
+bool allow(const Descriptor& ruleset, const char* place, std::uint64_t rights) {
+  const Descriptor opened(::open(place, O_PATH | O_CLOEXEC));
+  if (opened.get() < 0) return true;
+  const landlock_path_beneath_attr rule{.allowed_access = rights, .parent_fd = opened.get()};
+  return ::syscall(SYS_landlock_add_rule, ruleset.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
 }
 
 // Landlock restricts, by path and without privileges, the files that a process may open. Hides files outside
@@ -252,8 +230,8 @@ std::string confine_files(const Confinement& confinement, int& version) {
   const Ruleset wanted{every, version >= 4 ? connect_and_bind : 0,
                        version >= 6 ? abstract_sockets_and_signals : 0};
   const std::size_t size = version >= 6 ? 24 : version >= 4 ? 16 : 8;
-  const int ruleset = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &wanted, size, 0));
-  if (ruleset < 0) return std::strerror(errno);
+  const Descriptor ruleset(static_cast<int>(::syscall(SYS_landlock_create_ruleset, &wanted, size, 0)));
+  if (ruleset.get() < 0) return std::strerror(errno);
   // Moves between writable folders gain no rights.
   const std::uint64_t move = version >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0;
   bool good = confinement.places.empty() ? allow(ruleset, ".", look | keep | cut) : true;
@@ -268,10 +246,8 @@ std::string confine_files(const Confinement& confinement, int& version) {
       good = good && allow(ruleset, place, look | LANDLOCK_ACCESS_FS_EXECUTE);
   }
   // Open files keep their rights.
-  if (good) good = ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
-  const std::string problem = good ? "" : std::strerror(errno);
-  ::close(ruleset);
-  return problem;
+  if (good) good = ::syscall(SYS_landlock_restrict_self, ruleset.get(), 0) == 0;
+  return good ? "" : std::strerror(errno);
 }
 
 void limit(int what, std::int64_t most, const char* of) {
@@ -349,12 +325,6 @@ Barrier verdict(const char* name, const char* sentence, bool holds, const std::s
   return {name, sentence, holds, holds ? "" : otherwise};
 }
 
-bool opens(const char* file, int how) {
-  const int descriptor = ::open(file, how | O_CLOEXEC, 0600);
-  if (descriptor >= 0) ::close(descriptor);
-  return descriptor >= 0;
-}
-
 Barrier files() {
   std::string open;
   for (const char* file : {"/etc/passwd", "/proc/self/maps", "/proc/1/cmdline", "/usr/bin/env", "/", ".."})
@@ -390,13 +360,9 @@ Barrier programs() {
 Barrier network() {
   bool open = false;
   for (const int family : {AF_INET, AF_INET6, AF_UNIX, AF_NETLINK}) {
-    const int socket = ::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const int datagram = ::socket(family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    for (const int made : {socket, datagram})
-      if (made >= 0) {
-        open = true;
-        ::close(made);
-      }
+    const Descriptor stream(::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const Descriptor datagram(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    open = open || stream.get() >= 0 || datagram.get() >= 0;
   }
   return verdict("network", "no socket is opened", !open, "it opened one");
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <utility>
 
 #include "bindings/web/sandbox/frames.hpp"
@@ -17,41 +18,42 @@ namespace {
 namespace fs = std::filesystem;
 }
 
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  std::swap(number_, other.number_);
+  return *this;
+}
+
+void Descriptor::reset() {
+  const int reason = errno;
+  if (number_ >= 0) ::close(std::exchange(number_, -1));
+  errno = reason;
+}
+
 std::optional<OpenFile> open_plain_file(const fs::path& folder, std::string_view name) {
   if (name.empty() || name.size() > 1000 || name.find('\0') != std::string_view::npos) return {};
-  int at = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-  while (at >= 0) {
+  Descriptor at(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  while (at.get() >= 0) {
     const std::size_t slash = name.find('/');
     const std::string part(name.substr(0, slash));
     const bool last = slash == std::string_view::npos;
     const bool good = !part.empty() && part != "." && part != "..";
     // Do not block on a pipe.
     const int how = last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
-    const int next = good ? ::openat(at, part.c_str(), how | O_NOFOLLOW | O_CLOEXEC) : -1;
-    ::close(at);
-    at = next;
+    at = Descriptor(good ? ::openat(at.get(), part.c_str(), how | O_NOFOLLOW | O_CLOEXEC) : -1);
     if (last) break;
     name.remove_prefix(slash + 1);
   }
   struct stat facts {};
-  if (at < 0) return {};
-  if (::fstat(at, &facts) != 0 || !S_ISREG(facts.st_mode)) {
-    ::close(at);
-    return {};
-  }
-  return OpenFile{at, facts.st_size};
+  if (at.get() < 0 || ::fstat(at.get(), &facts) != 0 || !S_ISREG(facts.st_mode)) return {};
+  return OpenFile{std::move(at), facts.st_size};
 }
 
 std::optional<std::string> read_plain_file(const fs::path& folder, std::string_view name,
                                            std::size_t most_bytes) {
-  const auto file = open_plain_file(folder, name);
-  if (!file) return {};
-  std::optional<std::string> content;
-  if (file->bytes >= 0 && static_cast<std::size_t>(file->bytes) <= most_bytes) {
-    content.emplace(static_cast<std::size_t>(file->bytes), '\0');
-    if (!read_whole(file->descriptor, content->data(), content->size())) content.reset();
-  }
-  ::close(file->descriptor);
+  const auto open = open_plain_file(folder, name);
+  if (!open || open->bytes < 0 || static_cast<std::size_t>(open->bytes) > most_bytes) return {};
+  std::string content(static_cast<std::size_t>(open->bytes), '\0');
+  if (!read_whole(open->file.get(), content.data(), content.size())) return {};
   return content;
 }
 

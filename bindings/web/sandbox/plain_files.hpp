@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ordinary files of an untrusted folder. Names are resolved part by part, without links and "..".
+// Open files, and ordinary files of an untrusted folder. Names are resolved part by part, without links and
+// "..".
 #pragma once
 
 #include <cstddef>
@@ -12,9 +13,23 @@
 
 namespace asperity::web {
 
-// Closed by the caller.
+// Owns an open file; -1: none. Keeps errno.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { reset(); }
+  Descriptor(Descriptor&& other) noexcept : number_(other.number_) { other.number_ = -1; }
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  int get() const { return number_; }
+  void reset();
+
+ private:
+  int number_ = -1;
+};
+
 struct OpenFile {
-  int descriptor = -1;
+  Descriptor file;
   std::int64_t bytes = 0;
 };
 std::optional<OpenFile> open_plain_file(const std::filesystem::path& folder, std::string_view name);
