@@ -38,16 +38,6 @@ import { tags } from '@lezer/highlight';
 import type { Api, Check, Mark } from './api';
 import { h } from './dom';
 
-const kinds: Record<string, string> = {
-  module: 'namespace',
-  method: 'method',
-  key: 'property',
-  value: 'enum',
-  keyword: 'keyword',
-  global: 'variable',
-  function: 'function',
-};
-
 const look = EditorView.theme({
   '&': { height: '100%', color: 'var(--ink)', backgroundColor: 'var(--paper)', fontSize: 'var(--code-size)' },
   '&.cm-focused': { outline: 'none' }, // #editor shows the outline
@@ -331,7 +321,7 @@ export class Editor {
         options: answer.candidates.map(
           (c): Completion => ({
             label: c.text,
-            type: kinds[c.kind] ?? 'variable',
+            type: c.kind,
             detail: c.detail,
             info: c.help ? () => h('div', c.help!) : undefined,
           }),
