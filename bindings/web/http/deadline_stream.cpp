@@ -67,6 +67,12 @@ std::size_t head_bytes(std::string_view text) {
 
 }  // namespace
 
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 std::string_view head_problem(std::string_view head) {
   std::size_t end = head.find(line_end);
   if (end == std::string_view::npos || !is_request_line(head.substr(0, end)))
@@ -82,9 +88,7 @@ std::string_view head_problem(std::string_view head) {
       return "a line of the head is no field";
     const std::string_view value = trimmed(line.substr(colon + 1));
     if (!is_shown(value, true)) return "a field holds control characters";
-    std::string name(line.substr(0, colon));
-    std::ranges::transform(name, name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lower(std::string(line.substr(0, colon)));
     if (name == "transfer-encoding") return "a body must come in one piece, with its length";
     if (name != "content-length") continue;
     if (has_length) return "the body has two lengths";

@@ -14,6 +14,8 @@
 
 namespace asperity::web {
 
+std::string lower(std::string text);
+
 // Why the head of a request is not valid HTTP/1.1 (RFC 9112), or "". A strict parser before the library: two
 // parsers could disagree about the end of a request (line ends, folded lines, spaces before a colon, two
 // lengths, chunks), and bytes of one request could then pass as another. Such a head is refused and its

@@ -5,9 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
@@ -141,12 +139,6 @@ struct Here {
   std::string encodings{};  // Accept-Encoding, hidden from the library
 };
 thread_local Here here;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 HttpRequest head_of(const httplib::Request& from) {
   HttpRequest request;
