@@ -18,6 +18,7 @@
 #include "bindings/cli/watchdog.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 
@@ -29,10 +30,8 @@ namespace {
 
 // One write: lines of sessions must not mix.
 void append(const fs::path& file, const std::string& text) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND, 0600);
-  if (descriptor < 0) return;
-  [[maybe_unused]] const auto written = ::write(descriptor, text.data(), text.size());
-  ::close(descriptor);
+  const ScopedFile opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND, 0600));
+  [[maybe_unused]] const auto written = ::write(opened.number, text.data(), text.size());
 }
 
 constexpr LoadedPart editor_part{"edit", "lines are edited", "libedit2"};

@@ -113,9 +113,8 @@ void erase_shown_line() {
 Muted::Muted() {
   std::fflush(stdout);
   kept_ = ::dup(STDOUT_FILENO);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
-  if (nowhere >= 0) ::close(nowhere);
+  const ScopedFile nowhere(::open("/dev/null", O_WRONLY | O_CLOEXEC));
+  if (kept_ >= 0 && nowhere.number >= 0) ::dup2(nowhere.number, STDOUT_FILENO);
 }
 
 Muted::~Muted() {

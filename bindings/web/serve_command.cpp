@@ -85,8 +85,7 @@ std::vector<std::string> names_in(const std::string& path) {
   std::vector<std::string> names;
   std::set<std::string> seen;
   for (std::string line; std::getline(file, line);) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t'))
-      line.pop_back();
+    line.erase(line.find_last_not_of(" \t\r") + 1);
     if (line.empty()) continue;
     if (!seen.insert(line).second)
       throw Error(ErrorCode::bad_file,

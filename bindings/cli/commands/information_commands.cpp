@@ -20,8 +20,6 @@ namespace asperity::cli {
 
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) { return app.get_subcommands({}); }
-
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
 // Escapes commands and escapes of roff.
@@ -81,7 +79,7 @@ std::string manual_page(const CLI::App& app, const std::string& version) {
       "cost and its certified error.\n"
       ".PP\nQuantities of options carry units: \\fB60s\\fR, \\fB\"2 min\"\\fR, \\fB4G\\fR.\n"
       ".SH COMMANDS\n";
-  for (const CLI::App* command : commands_of(app)) {
+  for (const CLI::App* command : app.get_subcommands({})) {
     page += ".SS " + roff(command->get_name()) + "\n" + roff(command->get_description()) + ".\n";
     add_options(page, *command);
     if (!command->get_footer().empty()) page += ".PP\n" + roff(command->get_footer()) + "\n";
@@ -105,7 +103,7 @@ std::string manual_page(const CLI::App& app, const std::string& version) {
 std::string bash_completion(const CLI::App& app, const std::vector<std::string>& lessons) {
   std::vector<std::string> names;
   std::string options, valued;
-  for (const CLI::App* command : commands_of(app)) {
+  for (const CLI::App* command : app.get_subcommands({})) {
     names.push_back(command->get_name());
     std::vector<std::string> given;
     for (const CLI::Option* option : command->get_options())
