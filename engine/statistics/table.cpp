@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/statistics/table_head.hpp"
 
 namespace asperity {
@@ -58,11 +57,7 @@ TableColumn split_column_unit(std::string_view name) {
     return {std::string(name), {}};
   const TableHead head = table_head(name);
   if (head.unit == "-" || head.unit == "1") return {head.name, {}};
-  try {
-    parse_unit(head.unit);
-  } catch (const Error&) {
-    return {std::string(name), {}};  // "signal [counts]"
-  }
+  if (!known_unit(head.unit)) return {std::string(name), {}};  // "signal [counts]"
   return {head.name, head.unit};
 }
 
@@ -124,19 +119,18 @@ void check_unit(const TableColumn& column, std::string_view unit) {
 
 }  // namespace
 
-Table::Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows)
-    : columns_(std::move(columns)), rows_(std::move(rows)) {
+Table::Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows, std::string name)
+    : name_(std::move(name)), columns_(std::move(columns)), rows_(std::move(rows)) {
   std::vector<std::string> names = column_names();
   std::ranges::sort(names);
   if (!names.empty() && names.front().empty())
-    throw Error(ErrorCode::bad_value, "a column has an empty name", "give every column a name");
+    refuse("a column has an empty name", "give every column a name");
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
-    throw Error(ErrorCode::bad_value, "two columns are called " + quoted(*twice),
-                "give each column a name of its own");
+    refuse("two columns are called " + quoted(*twice), "give each column a name of its own");
   for (const std::vector<Cell>& row : rows_)
     if (row.size() > columns_.size())
-      throw Error(ErrorCode::bad_value, "a row has " + std::to_string(row.size()) + " cells under " +
-                                            std::to_string(columns_.size()) + " columns");
+      refuse("a row has " + std::to_string(row.size()) + " cells under " + std::to_string(columns_.size()) +
+             " columns");
 }
 
 std::vector<std::string> Table::column_names() const {
@@ -179,14 +173,12 @@ std::string Table::display_unit_of(std::string_view name, std::size_t column) co
 }
 
 std::vector<Entry> Table::resolved(std::span<const Entry> row) const {
-  if (row.empty())
-    throw Error(ErrorCode::bad_value, "a notebook row has no columns", "give at least one, as in {mu = 0.4}");
+  if (row.empty()) refuse("a notebook row has no columns", "give at least one, as in {mu = 0.4}");
   std::vector<Entry> all;
   std::vector<std::string> seen;
   for (const Entry& entry : row) {
     TableColumn given = split_column_unit(entry.column);
-    if (given.name.empty())
-      throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
+    if (given.name.empty()) refuse("a notebook column has an empty name", "give every column a name");
     seen.push_back(given.name);
     Cell value = cell_in_si(entry.value, given.unit);
     std::string unit = given.unit.empty() ? entry.unit : given.unit;
@@ -198,15 +190,13 @@ std::vector<Entry> Table::resolved(std::span<const Entry> row) const {
   }
   std::ranges::sort(seen);
   if (const auto twice = std::ranges::adjacent_find(seen); twice != seen.end())
-    throw Error(ErrorCode::bad_value, "a notebook row has column " + quoted(*twice) + " twice",
-                "give each column one value");
+    refuse("a notebook row has column " + quoted(*twice) + " twice", "give each column one value");
   return all;
 }
 
 std::size_t Table::place(std::string_view name) {
   if (const auto known = find_column(name)) return *known;
-  if (name.empty())
-    throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
+  if (name.empty()) refuse("a notebook column has an empty name", "give every column a name");
   columns_.push_back({std::string(name), {}});
   return columns_.size() - 1;
 }

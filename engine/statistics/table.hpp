@@ -56,7 +56,8 @@ class Table {
  public:
   Table() = default;
   // Throws as resolved(), and Error{bad_value} for a row longer than the columns.
-  Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows);
+  Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows,
+        std::string name = "the notebook");
 
   // In errors; "the notebook" by default.
   const std::string& name() const { return name_; }

@@ -14,16 +14,8 @@ namespace asperity {
 
 namespace {
 
-std::optional<Quantity> parsed_unit(std::string_view text) {
-  try {
-    return parse_unit(text);
-  } catch (const Error&) {  // no unit
-    return {};
-  }
-}
-
 bool is_unit(std::string_view text) {
-  const std::optional<Quantity> unit = parsed_unit(text);
+  const std::optional<Quantity> unit = known_unit(text);
   return unit && (unit->dimension != dimension::number || text == "%");
 }
 
@@ -47,6 +39,14 @@ std::optional<TableHead> with_remark(std::string_view name, std::string_view ins
 
 }  // namespace
 
+std::optional<Quantity> known_unit(std::string_view text) {
+  try {
+    return parse_unit(text);
+  } catch (const Error&) {  // no unit
+    return {};
+  }
+}
+
 std::string bare_unit(std::string_view cell) {
   cell = trimmed(cell);
   if (cell.size() >= 2 && (cell.front() == '[' || cell.front() == '(') &&
@@ -58,7 +58,7 @@ std::string bare_unit(std::string_view cell) {
 std::optional<Quantity> unit_in_cell(std::string_view cell) {
   const std::string unit = bare_unit(cell);
   if (unit.empty() || std::isdigit(static_cast<unsigned char>(unit[0])) != 0) return {};
-  return parsed_unit(unit);
+  return known_unit(unit);
 }
 
 std::optional<Quantity> quantity_in_cell(std::string_view cell) {

@@ -33,6 +33,7 @@ std::vector<std::string> head_names(const std::vector<HeadedColumn>& columns);
 std::string head_complaint(const std::vector<HeadedColumn>& columns, const HeadMatch& match,
                            std::string_view head, const std::string& called);
 
+std::optional<Quantity> known_unit(std::string_view text);
 // "[s]", "kN" or "-"; nothing for other or empty text.
 std::optional<Quantity> unit_in_cell(std::string_view cell);
 // Without brackets.

@@ -137,9 +137,7 @@ Table rows_of(const Table& table, std::span<const std::size_t> rows) {
   std::vector<std::vector<Cell>> cells;
   cells.reserve(rows.size());
   for (const std::size_t row : rows) cells.push_back(cells_in(table, row));
-  Table some(table.columns(), std::move(cells));
-  some.rename(table.name());
-  return some;
+  return {table.columns(), std::move(cells), table.name()};
 }
 
 std::string text_with_unit(const Cell& cell, const std::string& unit) {
@@ -158,9 +156,7 @@ Table in_display_units(const Table& table, std::span<const std::string> named) {
       if (Cell& cell = rows.back()[k]; is_number(cell) && !columns[k].unit.empty())
         cell = in_unit(*number_in(cell), columns[k].unit);
   }
-  Table shown(std::move(columns), std::move(rows));
-  shown.rename(table.name());
-  return shown;
+  return {std::move(columns), std::move(rows), table.name()};
 }
 
 Table joined(const Table& table, const Table& other, const Join& join) {
@@ -194,9 +190,7 @@ Table joined(const Table& table, const Table& other, const Join& join) {
                ", the first in row " + std::to_string(first_alone + 1) + ": " +
                key_text(table, by, first_alone),
            "unmatched=\"leave out\" takes the other rows, unmatched=\"keep\" leaves their cells empty");
-  Table both(std::move(columns), std::move(rows));
-  both.rename(table.name());
-  return both;
+  return {std::move(columns), std::move(rows), table.name()};
 }
 
 Table columns_of(const Table& table, std::span<const std::string> names) {
@@ -209,9 +203,7 @@ Table columns_of(const Table& table, std::span<const std::string> names) {
     columns.back().unit = table.display_unit_of(name, k);
     for (std::size_t row = 0; row < table.rows(); ++row) rows[row].push_back(table.cell(row, k));
   }
-  Table chosen(std::move(columns), std::move(rows));
-  chosen.rename(table.name());
-  return chosen;
+  return {std::move(columns), std::move(rows), table.name()};
 }
 
 std::string table_text(const Table& table, std::size_t most, int digits) {
@@ -304,11 +296,10 @@ NumberColumns number_columns(const Table& table,
       const Cell& cell = table.cell(row, places[k]);
       const auto number = number_in(cell);
       if (!number && !is_empty(cell))
-        throw Error(ErrorCode::bad_value,
-                    "column " + quoted(table.columns()[places[k]].name) + " holds the text \"" +
-                        short_text(cell).substr(0, 40) + "\" in row " + std::to_string(row + 1) +
-                        ", and numbers are wanted",
-                    "leave such rows out with `where`, or write the numbers in a column of their own");
+        refuse("column " + quoted(table.columns()[places[k]].name) + " holds the text \"" +
+                   short_text(cell).substr(0, 40) + "\" in row " + std::to_string(row + 1) +
+                   ", and numbers are wanted",
+               "leave such rows out with `where`, or write the numbers in a column of their own");
       whole = whole && number && std::isfinite(*number);
       row_values[k] = number.value_or(0);
     }

@@ -64,9 +64,7 @@ class MeasuredTable {
     }
     problems_.fail_if_any();
     if (heads.empty()) refuse_file(file_, "has no column with a head");
-    Table table(std::move(heads), std::move(rows));
-    table.rename(file_name(file_.path()));
-    return table;
+    return {std::move(heads), std::move(rows), file_name(file_.path())};
   }
 
  private:
