@@ -111,17 +111,15 @@ TEST(Bcr, EachFaultIsSaid) {
   EXPECT_EQ(refusal(example("fileformat = bcrstm_unicode\n", six)),
             "\"a.bcr\" is a BCR file of the kind \"bcrstm_unicode\"; bcrstm and bcrf are read");
   EXPECT_EQ(refusal("nothing"),
-            "\"a.bcr\" is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = "
-            "bcrf`; if it is "
-            "another format, name it with `format`");
+            "\"a.bcr\" lacks the mark of the format `bcr`: `fileformat = bcrstm` or bcrf at the start; if it "
+            "is another format, name it with `format`");
 }
 
 // Found by fuzzing: blanks had been removed before the comparison.
 TEST(Bcr, FirstLineHasTheKeyInOnePiece) {
   EXPECT_EQ(refusal(example("fileforma t= bcrstm\nxpixels = 3\nypixels = 2\n", six)),
-            "\"a.bcr\" is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = "
-            "bcrf`; if it is "
-            "another format, name it with `format`");
+            "\"a.bcr\" lacks the mark of the format `bcr`: `fileformat = bcrstm` or bcrf at the start; if it "
+            "is another format, name it with `format`");
   EXPECT_EQ(read(example("FileFormat=bcrstm\r\n" + integers, six), HoleFill::with(0)).height(0, 1),
             0.5 * 1e-9);
 }

@@ -67,7 +67,7 @@ TEST(Frt, EachFaultIsSaid) {
   EXPECT_NE(refusal({frt_shape(4000000000, 4000000000, 16), six}).find("4000000000 x 4000000000"),
             std::string::npos);
   EXPECT_EQ(refusal({shape, size, frt_scale(0), six}), "\"a\" gives 0 m as the height of one step");
-  EXPECT_EQ(refusal({shape, frt_size(1, -1), scale, six}), "\"a\" gives 1 m x -1 m as its size");
+  EXPECT_EQ(refusal({shape, frt_size(1, -1), scale, six}), "\"a\" gives -1 m as its size");
   EXPECT_EQ(refusal({shape, {0x67, "short"}, six}), "\"a\" is cut short in its size");
   EXPECT_EQ(refusal({shape, {0x70, std::string(8, '\0')}, six}),
             "\"a\" says that valid heights run from 0 to 0");

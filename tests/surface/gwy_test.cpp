@@ -114,8 +114,8 @@ TEST(Gwy, EachFaultIsSaid) {
   EXPECT_EQ(message_of([&] { read("GWYP" + gwy_object("GwyBrick", "")); }),
             "\"a.gwy\" holds an object \"GwyBrick\" instead of a GwyContainer");
   EXPECT_EQ(message_of([&] { read("GWYO"); }),
-            "\"a.gwy\" is not a GWY file: it does not start with GWYP; if it is another format, name it with "
-            "`format`");
+            "\"a.gwy\" lacks the mark of the format `gwy`: GWYP at the start; if it is another format, name "
+            "it with `format`");
 }
 
 TEST(Gwy, DamageIsAnErrorOrAnotherSurface) {

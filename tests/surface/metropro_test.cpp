@@ -69,7 +69,9 @@ TEST(MetroPro, EachFaultIsSaid) {
             "\"a.dat\" is cut short in its header of 834 bytes");
   ReadOptions options;
   options.format = "metropro";
-  EXPECT_NE(message_of([&] { read_surface(SourceFile("a.txt", "1 2"), options); }).find("is not a MetroPro"),
+  EXPECT_NE(message_of([&] {
+              read_surface(SourceFile("a.txt", "1 2"), options);
+            }).find("lacks the mark of the format `metropro`"),
             std::string::npos);
 }
 

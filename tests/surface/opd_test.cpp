@@ -68,7 +68,7 @@ TEST(Opd, ChannelNamesTheMap) {
   EXPECT_EQ(read(bytes).grid().nx, 3);
   EXPECT_EQ(read(bytes, {}, "Image").grid().nx, 1);
   EXPECT_EQ(message_of([&] { read(bytes, {}, "Title"); }),
-            "\"a.opd\" has no map `Title` but Image and RAW_DATA; name one of them with `channel`");
+            "\"a.opd\" holds no map `Title` but `Image` and `RAW_DATA`; name one of them with `channel`");
 }
 
 TEST(Opd, WhatTheFileDoesNotSayIsAskedFor) {
@@ -79,7 +79,7 @@ TEST(Opd, WhatTheFileDoesNotSayIsAskedFor) {
 }
 
 TEST(Opd, EachFaultIsSaid) {
-  EXPECT_EQ(refusal({wavelength, pixel}), "\"a.opd\" has no map of heights; of its blocks maps are none");
+  EXPECT_EQ(refusal({wavelength, pixel}), "\"a.opd\" holds no map");
   EXPECT_EQ(refusal({opd_map<float>("RAW_DATA", 3, 3, {1, 2, 3, 4, 5, 6})}),
             "\"a.opd\" says in its header that it holds 3 x 3 heights of 4 bytes but has 24 bytes of data; "
             "the file is "
@@ -96,9 +96,8 @@ TEST(Opd, EachFaultIsSaid) {
             "\"a.opd\" has the block \"Pixel_size\" past its end; the file is cut short");
   EXPECT_EQ(message_of([&] { read(whole.substr(0, 40)); }), "\"a.opd\" is cut short in its directory");
   EXPECT_EQ(message_of([&] { read("nothing"); }),
-            "\"a.opd\" is not an OPD file: it does not start with a directory; if it is another format, name "
-            "it with "
-            "`format`");
+            "\"a.opd\" lacks the mark of the format `opd`: a directory of blocks; if it is another format, "
+            "name it with `format`");
 }
 
 TEST(Opd, DamageIsAnErrorOrAnotherSurface) {

@@ -79,7 +79,9 @@ TEST(Read, ForcedFormat) {
       << unknown;
   EXPECT_TRUE(unknown.ends_with(", `stylus-csv`, `xyz` and `text`")) << unknown;
   options.format = "npy";
-  EXPECT_NE(message_of([&] { read_surface(sample("points.xyz"), options); }).find("is not a NPY file"),
+  EXPECT_NE(message_of([&] {
+              read_surface(sample("points.xyz"), options);
+            }).find("lacks the mark of the format `npy`"),
             std::string::npos);
 }
 
@@ -310,7 +312,9 @@ TEST(Read, MeasuredFilesThatAreNotWhatTheyClaim) {
               read_surface(measured("nonsense_txt_file.txt"));
             }).find("holds no table of numbers: line 1 starts with \"This is nonsense."),
             std::string::npos);
-  EXPECT_NE(message_of([] { read_surface(measured("wrongnpyfile.npy")); }).find("is not a NPY file"),
+  EXPECT_NE(message_of([] {
+              read_surface(measured("wrongnpyfile.npy"));
+            }).find("lacks the mark of the format `npy`"),
             std::string::npos);
 }
 

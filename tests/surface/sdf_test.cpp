@@ -102,9 +102,8 @@ TEST(Sdf, EachFaultIsSaid) {
   EXPECT_EQ(refusal(SdfExample{.type = 8}(six)), "\"a.sdf\" has the DataType 8; types 0 to 7 are read");
   EXPECT_EQ(refusal(std::string("bISO-1.0 short")), "\"a.sdf\" is cut short in its header of 81 bytes");
   EXPECT_EQ(refusal("nothing of it"),
-            "\"a.sdf\" is not an SDF file: it starts with neither aISO, aBCR, bISO nor bBCR; if it is "
-            "another format, "
-            "name it with `format`");
+            "\"a.sdf\" lacks the mark of the format `sdf`: aISO-1.0, bISO-1.0 or BCR at the start; if it is "
+            "another format, name it with `format`");
   EXPECT_EQ(refusal(text_form + "1 2 3 4 5\n"),
             "\"a.sdf\" has 5 of the 6 heights of its header; the file is cut short or its header is wrong");
   EXPECT_EQ(refusal(text_form + "1 2 3 4 5 6 7\n*\n"),

@@ -142,9 +142,8 @@ TEST(Sur, EachFaultIsSaid) {
   EXPECT_EQ(refusal(std::string("DIGITAL SURF\0\0 and no more", 27)),
             "\"a.sur\" is cut short in its header of 512 bytes");
   EXPECT_EQ(refusal("other"),
-            "\"a.sur\" is not a SUR file: it does not start with DIGITAL SURF; if it is another format, name "
-            "it with "
-            "`format`");
+            "\"a.sur\" lacks the mark of the format `sur`: DIGITAL SURF at the start; if it is another "
+            "format, name it with `format`");
   EXPECT_EQ(refusal(SurExample{.order = 257}(six)),
             "\"a.sur\" is a SUR file of an Apple computer (format 257); save it again on another computer");
   EXPECT_EQ(refusal(SurExample{.type = 3}(six)),

@@ -206,6 +206,16 @@ TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor
   return table;
 }
 
+std::size_t even_values(std::span<const double> values, double share) {
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  if (!(step > 0) || !std::isfinite(step)) return 0;
+  std::size_t k = 0;
+  while (k < values.size() &&
+         std::abs(values[k] - (values.front() + static_cast<double>(k) * step)) <= share * step)
+    ++k;
+  return k;
+}
+
 bool ends_with_line_end(const SourceFile& file) {
   const std::string_view text = file.text();
   return text.empty() || text.back() == '\n' || text.back() == '\r';

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +61,10 @@ struct TextTable {
 // Reads the remaining lines, without comments after #. Drops an empty last column. Throws Error{bad_file} for
 // an unreadable or infinite cell or a row with another length.
 TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor);
+
+// Values before the first one that is off its place by more than `share` of the mean step; none unless this
+// step is finite and above zero. Two values or more.
+std::size_t even_values(std::span<const double> values, double share);
 
 // True for empty text.
 bool ends_with_line_end(const SourceFile& file);

@@ -16,12 +16,7 @@ void Md5::add(std::span<const char> bytes) {
 std::string Md5::hex() {
   std::array<std::uint8_t, MD5_DIGEST_LENGTH> digest;
   MD5Final(digest.data(), &context_);
-  std::string text;
-  for (const std::uint8_t byte : digest) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
+  return hexadecimal(digest);
 }
 
 namespace {

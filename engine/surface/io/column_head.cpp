@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/statistics/table_head.hpp"
 #include "engine/statistics/table_lines.hpp"
 
 namespace asperity {
@@ -41,12 +41,8 @@ HeadColumn head_column(std::string_view cell) {
 }  // namespace
 
 std::optional<double> exact_unit(std::string_view text) {
-  try {
-    const Quantity unit = parse_unit(text);
-    if (unit.dimension == dimension::length) return unit.value;
-  } catch (const Error&) {  // part of the name
-  }
-  return {};
+  const std::optional<Quantity> unit = known_unit(text);
+  return unit && unit->dimension == dimension::length ? std::optional(unit->value) : std::nullopt;
 }
 
 std::string_view without_mark(std::string_view line) {

@@ -48,14 +48,18 @@ std::span<const Format* const> formats() {
   return all;
 }
 
-void require_format(const SourceFile& file, bool recognised, const char* finding) {
-  if (!recognised) refuse_file(file, finding, "if it is another format, name it with `format`");
-}
-
 namespace {
 
 bool has_extension(const Format& format, std::string_view extension) {
   return std::ranges::find(format.extensions, extension) != format.extensions.end();
+}
+
+const Format& if_marked(const Format& format, const SourceFile& file) {
+  if (!format.reads_unrecognised && !format.recognises(file))
+    refuse_file(file,
+                "lacks the mark of the format " + quoted(format.name) + ": " + std::string(format.marks),
+                "if it is another format, name it with `format`");
+  return format;
 }
 
 const Format& if_certain(const Format& format, const SourceFile& file) {
@@ -83,7 +87,7 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
   if (!forced.empty()) {
     std::vector<std::string> names, quoted_names;
     for (const Format* format : formats()) {
-      if (format->name == forced) return *format;
+      if (format->name == forced) return if_marked(*format, file);
       names.emplace_back(format->name);
       quoted_names.push_back(quoted(format->name));
     }
@@ -94,7 +98,8 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
     if (format->recognises(file)) return if_certain(*format, file);
   if (const std::optional<ForeignFormat> foreign = foreign_format(file))
     refuse_file(file, "is " + foreign->what + ", which is not read", foreign->cure);
-  if (const Format* const format = format_of_extension(file.extension())) return if_certain(*format, file);
+  if (const Format* const format = format_of_extension(file.extension()))
+    return if_certain(if_marked(*format, file), file);
   std::vector<std::string> marks;
   for (const Format* format : formats())
     marks.push_back(std::string(format->name) + " (" + std::string(format->marks) + ")");

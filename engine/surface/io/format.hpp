@@ -62,7 +62,13 @@ struct Format {
   HeightMap (*read)(const SourceFile& file, Monitor& monitor);
   // Replaces `read` if files hold several maps; empty `channel`: the default.
   HeightMap (*read_channel)(const SourceFile& file, const std::string& channel, Monitor& monitor) = nullptr;
+  bool reads_unrecognised = false;  // by request or extension
 };
+
+template <const std::string_view& mark>
+bool begins_with(const SourceFile& file) {
+  return file.bytes().starts_with(mark);
+}
 
 void turn_over(Field& field);
 
@@ -72,9 +78,6 @@ extern const Format stylus_csv_format, xyz_format, text_format;
 // duplicates, or scattered points on a hundred lines or more.
 void refuse_uncertain_points(const SourceFile& file);
 
-// Throws Error{bad_file} with `finding` unless `recognised`.
-void require_format(const SourceFile& file, bool recognised, const char* finding);
-
 // Lower case, without dot; null if unknown.
 const Format* format_of_extension(std::string_view extension);
 
@@ -82,7 +85,8 @@ const Format* format_of_extension(std::string_view extension);
 std::span<const Format* const> formats();
 
 // By `forced`, else by content, else by extension; for tables, the extension of x y z also decides. Throws
-// Error{unknown_name} for an unknown `forced`, and Error{bad_file} if nothing fits.
+// Error{unknown_name} for an unknown `forced`, and Error{bad_file} if nothing fits, or if the file lacks the
+// marks of a format other than `reads_unrecognised`.
 const Format& choose_format(const SourceFile& file, const std::string& forced);
 
 }  // namespace asperity

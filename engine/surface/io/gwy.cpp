@@ -124,7 +124,6 @@ struct Channel {
 
 // The maps by number.
 std::map<std::uint32_t, Channel> read_channels(const SourceFile& file, Monitor& monitor) {
-  require_format(file, file.bytes().starts_with(mark), "is not a GWY file: it does not start with GWYP");
   BinaryCursor cursor(file, file.bytes().substr(mark.size()), "its outermost object");
   const Object container = take_object(cursor);
   if (container.name != "GwyContainer")
@@ -230,8 +229,6 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
   return map;
 }
 
-bool recognises_gwy(const SourceFile& file) { return file.bytes().starts_with(mark); }
-
 // --- writing
 
 std::string ended(std::string_view text) { return std::string(text) + '\0'; }
@@ -252,7 +249,7 @@ extern constexpr Format gwy_format{
      "The published layout, and files that this program writes; no instrument's file was compared."},
     {FirstLine::top, "Gwyddion's data fields begin at the top left."},
     {"gwy"},
-    recognises_gwy,
+    begins_with<mark>,
     nullptr,
     read_gwy_channel};
 

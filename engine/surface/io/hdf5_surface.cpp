@@ -2,8 +2,8 @@
 #include "engine/surface/io/hdf5_surface.hpp"
 
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/table_head.hpp"
 #include "engine/surface/io/format.hpp"
 
 namespace asperity {
@@ -89,19 +89,14 @@ HeightMap read_hdf5_channel(const SourceFile& file, const std::string& channel, 
       },
       array.values);
   if (!array.unit.empty()) {
-    Quantity unit;
-    try {
-      unit = parse_unit(array.unit);
-    } catch (const Error&) {
-      // Unknown unit; the call may give one.
-      return map;
-    }
-    if (unit.dimension != dimension::length)
+    const std::optional<Quantity> unit = known_unit(array.unit);
+    if (!unit) return map;  // the call may give one
+    if (unit->dimension != dimension::length)
       refuse_file(
           file,
-          "holds " + quoted(array.name) + " in " + array.unit + ", which is " + describe(unit.dimension),
+          "holds " + quoted(array.name) + " in " + array.unit + ", which is " + describe(unit->dimension),
           "name an array of heights with `channel`");
-    map.unit = unit.value;
+    map.unit = unit->value;
   }
   const Hdf5Array* const size = content.array("size");
   const auto* const sides = size == nullptr ? nullptr : std::get_if<std::span<const double>>(&size->values);
@@ -201,6 +196,7 @@ extern constexpr Format hdf5_format{
     {"h5", "hdf5", "he5"},
     looks_like_hdf5,
     nullptr,
-    read_hdf5_channel};
+    read_hdf5_channel,
+    true};
 
 }  // namespace asperity

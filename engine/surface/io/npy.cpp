@@ -39,8 +39,6 @@ std::string_view value_of(std::string_view dictionary, std::string_view key) {
   return {};
 }
 
-bool recognises_npy(const SourceFile& file) { return file.bytes().starts_with(magic); }
-
 HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
   const NpyHeader header = read_npy_header(file);
   if (header.shape.empty() || header.shape.size() > 2)
@@ -49,23 +47,14 @@ HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
   const std::uint64_t ny = header.shape.size() == 2 ? header.shape[0] : 1;
   const std::uint64_t nx = header.shape.back();
   if (nx == 0 || ny == 0) refuse_file(file, "holds an array without elements");
-  const std::uint64_t present = file.bytes().size() - header.data_at;
-  const std::uint64_t width = header.type.width, room = present / width;
-  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
-  if (nx > most || ny > most || nx > room / ny || nx * ny * width != present)
-    refuse_file(file,
-                "says in its header that it holds " + std::to_string(ny) + " x " + std::to_string(nx) +
-                    " numbers of " + std::to_string(width) + " bytes but has " + std::to_string(present) +
-                    " bytes of data",
-                "the file is cut short or its header is wrong");
+  const std::string_view data = file.bytes().substr(header.data_at);
   HeightMap map;
   map.trace = header.shape.size() == 1;
-  const std::string_view data = file.bytes().substr(header.data_at);
   if (!header.fortran_order) {
-    map.heights = field_of_numbers(header.type, data, nx, ny, monitor);
+    map.heights = exact_field(file, header.type, data, nx, ny, monitor);
     return map;
   }
-  const Field columns = field_of_numbers(header.type, data, ny, nx, monitor);
+  const Field columns = exact_field(file, header.type, data, ny, nx, monitor);
   map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
   for (std::uint64_t k = 0; k < nx * ny; ++k) map.heights[k] = columns[k % nx * ny + k / nx];
   return map;
@@ -74,24 +63,19 @@ HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 NpyHeader read_npy_header(const SourceFile& file) {
-  const std::string_view bytes = file.bytes();
-  require_format(file, bytes.starts_with(magic), "is not a NPY file: it does not start with \\x93NUMPY");
-  if (bytes.size() < 10) refuse_file(file, "is cut short in its NPY header");
-  const auto byte = [&](std::size_t at) {
-    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at]));
-  };
-  const std::size_t version = byte(6);
+  if (!file.bytes().starts_with(magic))
+    refuse_file(file, "is not a NPY file: it does not start with \\x93NUMPY");
+  BinaryCursor cursor(file, file.bytes(), "its NPY header");
+  cursor.skip(magic.size());
+  const int version = cursor.number<std::uint8_t>();
+  cursor.skip(1);
   if (version < 1 || version > 3)
     refuse_file(file, "has NPY version " + std::to_string(version), "1 to 3 are read");
-  const std::size_t start = version == 1 ? 10 : 12;
-  if (bytes.size() < start) refuse_file(file, "is cut short in its NPY header");
-  std::size_t length = byte(8) | byte(9) << 8;
-  if (version > 1) length |= byte(10) << 16 | byte(11) << 24;
-  if (length > bytes.size() - start) refuse_file(file, "is cut short in its NPY header");
-  const std::string_view dictionary = bytes.substr(start, length);
+  const std::uint32_t length = version == 1 ? cursor.number<std::uint16_t>() : cursor.number<std::uint32_t>();
+  const std::string_view dictionary = cursor.take(length);
 
   NpyHeader header;
-  header.data_at = start + length;
+  header.data_at = cursor.position();
   const std::string_view descr = value_of(dictionary, "descr");
   const std::string_view type =
       descr.size() > 1 ? descr.substr(1, descr.find(descr[0], 1) - 1) : std::string_view();
@@ -137,7 +121,7 @@ extern constexpr Format npy_format{
      "Complex numbers, records and objects; arrays of three axes.", "Arrays written by NumPy."},
     {FirstLine::bottom, "A matrix: its first row is j = 0."},
     {"npy"},
-    recognises_npy,
+    begins_with<magic>,
     read_npy};
 
 }  // namespace asperity

@@ -187,14 +187,8 @@ void take_head_line(OwnHead& head, std::string_view line) {
                std::string_view(plain).substr(parts + 1));
 }
 
-// Tolerance: `share` of the mean step.
 bool rises_evenly(std::span<const double> values, double share) {
-  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
-  if (!(step > 0) || !std::isfinite(step)) return false;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (!(std::abs(values[k] - (values.front() + static_cast<double>(k) * step)) <= share * step))
-      return false;
-  return true;
+  return even_values(values, share) == values.size();
 }
 
 }  // namespace

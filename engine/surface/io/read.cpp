@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/require.hpp"
 #include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
@@ -161,14 +162,16 @@ void fold_positions(HeightMap& map, const SourceFile& file) {
     refuse_file(file, "has two columns, position and height, and one row",
                 "a profile takes two samples or more");
   Field heights(n, 1);
-  for (int k = 0; k < n; ++k) heights(k, 0) = map.heights(1, k);
-  const double spacing = (map.heights(0, n - 1) - map.heights(0, 0)) / (n - 1);
-  for (int k = 0; k < n; ++k)
-    if (!(spacing > 0) ||
-        !(std::abs(map.heights(0, k) - (map.heights(0, 0) + k * spacing)) <= 0.25 * spacing))
-      refuse_file(file,
-                  "has two columns, position and height, but its positions are not evenly spaced at sample " +
-                      std::to_string(k + 1));
+  Array<double> positions;
+  for (int k = 0; k < n; ++k) {
+    heights(k, 0) = map.heights(1, k);
+    positions.push_back(map.heights(0, k));
+  }
+  if (const std::size_t even = even_values(positions, 0.25); even < positions.size())
+    refuse_file(file,
+                "has two columns, position and height, but its positions are not evenly spaced at sample " +
+                    std::to_string(even + 1));
+  const double spacing = (positions.back() - positions.front()) / (n - 1);
   map.heights = std::move(heights);
   map.pairs = false;
   map.size_x = spacing * n;

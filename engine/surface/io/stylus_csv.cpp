@@ -95,7 +95,8 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
     const std::optional<Quantity> stated = quantity_in_cell(utf8_or_cp1252(cells[1]));
     if (stated && stated->dimension == dimension::length) length = stated->value;
   }
-  require_format(file, found, "has no line \"Scan Data\"");
+  if (!found)
+    refuse_file(file, "has no line \"Scan Data\"", "if it is another format, name it with `format`");
   do {
     if (!lines.next(line)) refuse_file(file, "ends after \"Scan Data\"", "the file is cut short");
   } while (trimmed(line).empty());
@@ -151,6 +152,8 @@ extern constexpr Format stylus_csv_format{
     {FirstLine::bottom, "Profiles only."},
     {},
     recognises_stylus_csv,
-    read_stylus_csv};
+    read_stylus_csv,
+    nullptr,
+    true};
 
 }  // namespace asperity

@@ -255,6 +255,8 @@ extern constexpr Format text_format{
     {FirstLine::bottom, "A matrix: its first line is j = 0; under Gwyddion's head it is the top."},
     {"txt", "csv", "asc", "dat", "tsv"},
     recognises_text_matrix,
-    read_text_matrix};
+    read_text_matrix,
+    nullptr,
+    true};
 
 }  // namespace asperity

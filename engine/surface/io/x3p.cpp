@@ -242,13 +242,10 @@ void read_inline(const SourceFile& file, pugi::xml_node list, Map& map) {
 double size_of(const SourceFile& file, const X3pAxis& axis, std::span<const double> coordinates,
                std::uint64_t count, const char* name) {
   if (!axis.absolute) return static_cast<double>(axis.increment * static_cast<long double>(count));
-  const double spacing =
-      count > 1 ? (coordinates.back() - coordinates.front()) / static_cast<double>(count - 1) : 0.0;
-  for (std::uint64_t k = 0; k < count; ++k)
-    if (!(spacing > 0) || !(std::abs(coordinates[k] - (coordinates.front() +
-                                                       static_cast<double>(k) * spacing)) <= 0.25 * spacing))
-      refuse_file(
-          file, std::string("is not on a regular grid: its ") + name + " coordinates are not evenly spaced");
+  if (even_values(coordinates, 0.25) < count)
+    refuse_file(file,
+                std::string("is not on a regular grid: its ") + name + " coordinates are not evenly spaced");
+  const double spacing = (coordinates.back() - coordinates.front()) / static_cast<double>(count - 1);
   return spacing * static_cast<double>(count);
 }
 
@@ -404,7 +401,9 @@ extern constexpr Format x3p_format{
     {FirstLine::bottom, "ISO 25178-72 gives coordinates: y is the row times its increment."},
     {"x3p"},
     recognises_x3p,
-    read_x3p};
+    read_x3p,
+    nullptr,
+    true};
 
 // Writes incremental x and y, z in double precision, a fixed date. Missing points are NaN: the valid-points
 // mask of the standard is for integers.
@@ -425,8 +424,8 @@ void write_x3p(const Surface& surface, const std::string& path) {
   const auto refuse = [&](const std::string& reason) {
     if (zip != nullptr) zip_discard(zip);
     if (archive != nullptr) zip_source_free(archive);
-    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written: " + reason,
-                "check permission and space on the disk");
+    refuse_bad_file(file_name(path) + " cannot be written: " + reason,
+                    "check permission and space on the disk");
   };
   if (zip == nullptr) refuse(zip_error_strerror(&error));
   zip_source_keep(archive);

@@ -43,14 +43,12 @@ LatticeAxis axis_of(const TextTable& table, std::size_t column) {
     if (distinct.empty() || value - distinct.back() > same) distinct.push_back(value);
   axis.first = distinct.front();
   axis.lines = static_cast<int>(distinct.size());
-  axis.even = true;
-  if (axis.lines == 1) return axis;
+  axis.even = axis.lines == 1;
+  if (axis.even) return axis;
   axis.spacing = (distinct.back() - distinct.front()) / (axis.lines - 1);
-  for (std::size_t k = 0; k < distinct.size() && axis.even; ++k) {
-    axis.even =
-        std::abs(distinct[k] - (axis.first + static_cast<double>(k) * axis.spacing)) <= 0.25 * axis.spacing;
-    axis.odd = distinct[k];
-  }
+  const std::size_t even = even_values(distinct, 0.25);
+  axis.even = even == distinct.size();
+  if (!axis.even) axis.odd = distinct[even];
   return axis;
 }
 
@@ -338,6 +336,8 @@ extern constexpr Format xyz_format{"xyz",
                                    {FirstLine::bottom, "The coordinates of the points."},
                                    {"xyz"},
                                    recognises_xyz,
-                                   read_xyz};
+                                   read_xyz,
+                                   nullptr,
+                                   true};
 
 }  // namespace asperity

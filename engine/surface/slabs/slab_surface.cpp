@@ -73,7 +73,7 @@ SlabFile open_npy(const std::string& path, std::ifstream& stream) {
   std::error_code failure;
   stream.open(path, std::ios::binary);
   if (!stream || !std::filesystem::is_regular_file(path, failure))
-    throw Error(ErrorCode::bad_file, "there is no file " + file_name(path) + " that can be read");
+    refuse_bad_file("there is no file " + file_name(path) + " that can be read");
   constexpr std::size_t head = std::size_t{1} << 17;
   std::string bytes(head, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(head));
@@ -186,7 +186,7 @@ SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions
     bytes.resize(length);
     stream.seekg(static_cast<std::streamoff>(file.header.data_at + static_cast<std::size_t>(j) * length));
     stream.read(bytes.data(), static_cast<std::streamsize>(length));
-    if (!stream) throw Error(ErrorCode::bad_file, file_name(path) + " changed while it was read");
+    if (!stream) refuse_bad_file(file_name(path) + " changed while it was read");
     for (int i = 0; i < file.nx; ++i) {
       to[i] = unit * type.read(bytes.data() + static_cast<std::size_t>(i) * type.width);
       if (std::isnan(to[i]))

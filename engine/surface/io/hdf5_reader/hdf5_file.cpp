@@ -9,12 +9,10 @@
 #include <set>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
@@ -240,8 +238,8 @@ void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
   {
     const std::lock_guard lock(one_at_a_time);
     if (write(staged.temporary().c_str(), &file, reason.data(), reason.size()) != 0)
-      throw Error(ErrorCode::bad_file, file_name(path.string()) + " cannot be written: " + reason.data(),
-                  "check permission and space on the disk");
+      refuse_bad_file(file_name(path.string()) + " cannot be written: " + reason.data(),
+                      "check permission and space on the disk");
   }
   staged.commit(Durable::yes);
 }

@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::string_view al3d_mark("AliconaImaging\0\r\n", 17);
 
-bool recognises_al3d(const SourceFile& file) { return file.bytes().starts_with(al3d_mark); }
-
 void take_tag(BinaryCursor& cursor, const SourceFile& file, HeaderEntries& tags) {
   constexpr std::size_t name_bytes = 20, value_bytes = 30;
   const std::string_view name = cursor.text(name_bytes), value = cursor.text(value_bytes);
@@ -21,7 +19,6 @@ void take_tag(BinaryCursor& cursor, const SourceFile& file, HeaderEntries& tags)
 }
 
 HeaderEntries read_tags(const SourceFile& file) {
-  require_format(file, recognises_al3d(file), "is not an AL3D file: it does not start with AliconaImaging");
   BinaryCursor cursor(file, file.bytes(), "its tags");
   cursor.skip(al3d_mark.size());
   HeaderEntries tags(file);
@@ -80,7 +77,7 @@ extern constexpr Format al3d_format{
      "has no missing points."},
     {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
     {"al3d"},
-    recognises_al3d,
+    begins_with<al3d_mark>,
     read_al3d};
 
 }  // namespace asperity

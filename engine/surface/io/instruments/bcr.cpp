@@ -73,8 +73,6 @@ HeaderEntries entries_of(const SourceFile& file, std::size_t characters, std::st
 }
 
 HeaderEntries read_entries(const SourceFile& file, std::string_view& data) {
-  require_format(file, recognises_bcr(file),
-                 "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`");
   HeaderEntries entries = entries_of(file, header_characters, data);
   if (!entries.find("headersize")) return entries;
   const std::uint64_t said = entries.count("headersize");

@@ -10,14 +10,11 @@ namespace {
 
 constexpr std::string_view frt_mark = "FRTM_GLIDERV";
 
-bool recognises_frt(const SourceFile& file) { return file.bytes().starts_with(frt_mark); }
-
 // The first of equal kinds counts.
 using FrtBlocks = std::map<int, std::string_view>;
 constexpr int frt_heights = 0x0B, frt_shape = 0x66, frt_size = 0x67, frt_scale = 0x6C, frt_valid = 0x70;
 
 FrtBlocks read_frt_blocks(const SourceFile& file) {
-  require_format(file, recognises_frt(file), "is not an FRT file: it does not start with FRTM_GLIDERV");
   BinaryCursor cursor(file, file.bytes(), "its blocks");
   cursor.skip(frt_mark.size());
   const std::string_view version = cursor.take(4);
@@ -77,11 +74,8 @@ HeightMap read_frt(const SourceFile& file, Monitor& monitor) {
   }
   if (const auto found = blocks.find(frt_size); found != blocks.end()) {
     BinaryCursor size(file, found->second, "its size");
-    const double x = size.number<double>(), y = size.number<double>();
-    if (!(x > 0) || !std::isfinite(x) || !(y > 0) || !std::isfinite(y))
-      refuse_file(file, "gives " + format_short(x) + " m x " + format_short(y) + " m as its size");
-    map.size_x = x;
-    map.size_y = y;
+    map.size_x = above_zero(file, size.number<double>(), "m as its size");
+    map.size_y = above_zero(file, size.number<double>(), "m as its size");
   }
   return map;
 }
@@ -97,7 +91,7 @@ extern constexpr Format frt_format{
      "size; 32 bits by the layout alone."},
     {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
     {"frt"},
-    recognises_frt,
+    begins_with<frt_mark>,
     read_frt};
 
 }  // namespace asperity

@@ -26,8 +26,6 @@ bool recognises_metropro(const SourceFile& file) {
 }
 
 MetroProHeader read_metropro_header(const SourceFile& file) {
-  require_format(file, recognises_metropro(file),
-                 "is not a MetroPro file: it does not start with 88 1B 03 6F, 70 or 71");
   constexpr std::size_t short_header = 834, long_header = 4096;
   const std::string_view bytes = file.bytes();
   if (bytes.size() < short_header)

@@ -19,8 +19,6 @@ struct MiHeader {
 
 MiHeader mi_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  require_format(file, bytes.starts_with(mi_mark),
-                 "is not an MI image: it does not start with \"fileType      Image\"");
   MiHeader header{HeaderEntries(file), {}, {}, {}};
   std::size_t at = 0;
   while (at < bytes.size()) {
@@ -80,8 +78,6 @@ HeightMap read_mi_channel(const SourceFile& file, const std::string& channel, Mo
           .trace = rows == 1};
 }
 
-bool recognises_mi(const SourceFile& file) { return file.bytes().starts_with(mi_mark); }
-
 }  // namespace
 
 extern constexpr Format mi_format{
@@ -94,7 +90,7 @@ extern constexpr Format mi_format{
      "one that its tests state."},
     {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
     {"mi"},
-    recognises_mi,
+    begins_with<mi_mark>,
     nullptr,
     read_mi_channel};
 

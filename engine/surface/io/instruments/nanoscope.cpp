@@ -18,8 +18,6 @@ struct NanoscopeSection {
 };
 
 std::vector<NanoscopeSection> nanoscope_sections(const SourceFile& file) {
-  require_format(file, file.bytes().starts_with(nanoscope_mark),
-                 "is not a Nanoscope file: it does not start with \\*File list");
   std::string_view text = file.bytes();
   text = text.substr(0, text.find('\x1A'));
   std::vector<NanoscopeSection> sections;
@@ -214,8 +212,6 @@ HeightMap read_nanoscope_channel(const SourceFile& file, const std::string& chan
           .trace = image.ny == 1};
 }
 
-bool recognises_nanoscope(const SourceFile& file) { return file.bytes().starts_with(nanoscope_mark); }
-
 }  // namespace
 
 extern constexpr Format nanoscope_format{
@@ -228,7 +224,7 @@ extern constexpr Format nanoscope_format{
      "independent program."},
     {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
     {"spm", "di"},
-    recognises_nanoscope,
+    begins_with<nanoscope_mark>,
     nullptr,
     read_nanoscope_channel};
 

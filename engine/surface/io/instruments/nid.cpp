@@ -17,8 +17,6 @@ struct NidHeader {
 };
 
 NidHeader nid_header(const SourceFile& file) {
-  require_format(file, file.bytes().starts_with(nid_mark),
-                 "is not a NID file: it does not start with [DataSet]");
   const std::string_view bytes = file.bytes();
   const std::size_t end = bytes.find("\n#!");
   if (end == std::string_view::npos)
@@ -137,6 +135,7 @@ extern constexpr Format nid_format{
     {"nid"},
     recognises_nid,
     nullptr,
-    read_nid_channel};
+    read_nid_channel,
+    true};
 
 }  // namespace asperity

@@ -17,7 +17,6 @@ bool recognises_nms(const SourceFile& file) {
 }
 
 HeightMap read_nms(const SourceFile& file, Monitor& monitor) {
-  require_format(file, recognises_nms(file), "is not an NMS file: it has no OM_MS_ at byte 32");
   const std::string_view bytes = file.bytes();
   const auto count = [&](std::size_t at) { return std::uint64_t{little_endian<std::uint32_t>(&bytes[at])}; };
   const auto number = [&](std::size_t at) { return little_endian<double>(&bytes[at]); };

@@ -25,7 +25,6 @@ struct Block {
 
 std::vector<Block> read_directory(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  require_format(file, bytes.starts_with(opd_mark), "is not an OPD file: it does not start with a directory");
   BinaryCursor head(file, bytes.substr(start), "its directory");
   head.skip(name_bytes + 2);
   const std::size_t length = head.number<std::uint32_t>();
@@ -76,22 +75,18 @@ std::optional<double> number_of(const SourceFile& file, const std::vector<Block>
 
 const Block& map_block(const SourceFile& file, const std::vector<Block>& blocks, const std::string& channel) {
   constexpr int array_type = 3;
-  std::vector<std::string> maps;
+  std::vector<const Block*> arrays;
+  std::vector<NamedMap> maps;
   for (const Block& block : blocks)
-    if (block.type == array_type) maps.push_back(plain_text(block.name));
-  const std::string held = maps.empty() ? "none" : joined(maps, " and ");
-  if (!channel.empty()) {
-    const Block* const asked = find(blocks, channel);
-    if (asked == nullptr || asked->type != array_type)
-      refuse_file(file, "has no map " + quoted(channel) + did_you_mean(channel, maps) + " but " + held,
-                  "name one of them with `channel`");
-    return *asked;
-  }
-  for (const std::string_view name : map_names)
-    if (const Block* const found = find(blocks, name); found != nullptr && found->type == array_type)
-      return *found;
-  refuse_file(file, "has no map of heights; of its blocks maps are " + held,
-              maps.empty() ? "" : "name one of them with `channel`");
+    if (block.type == array_type) {
+      arrays.push_back(&block);
+      maps.push_back({plain_text(block.name)});
+    }
+  const auto usual = std::ranges::find_first_of(map_names, arrays, {}, {}, &Block::name);
+  if (usual != map_names.end())
+    maps[static_cast<std::size_t>(std::ranges::find(arrays, *usual, &Block::name) - arrays.begin())].heights =
+        true;
+  return *arrays[chosen_map(file, maps, channel)];
 }
 
 HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
@@ -127,8 +122,6 @@ HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, M
   return map;
 }
 
-bool recognises_opd(const SourceFile& file) { return file.bytes().starts_with(opd_mark); }
-
 }  // namespace
 
 extern constexpr Format opd_format{
@@ -140,7 +133,7 @@ extern constexpr Format opd_format{
      "points."},
     {FirstLine::bottom, "Gwyddion's reader: y runs upwards along each stored column."},
     {"opd"},
-    recognises_opd,
+    begins_with<opd_mark>,
     nullptr,
     read_opd_channel};
 

@@ -124,8 +124,6 @@ double opdx_metres(const SourceFile& file, const OpdxItems& items, const std::st
 }
 
 HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
-  require_format(file, file.bytes().starts_with(opdx_mark),
-                 "is not an OPDx file: it does not start with VCA DATA");
   OpdxItems items;
   read_opdx_items(file, file.bytes().substr(opdx_mark.size()), "", 0, items);
   const auto kind = items.find("/MetaData/DataKind");
@@ -162,8 +160,6 @@ HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, 
   return map;
 }
 
-bool recognises_opdx(const SourceFile& file) { return file.bytes().starts_with(opdx_mark); }
-
 }  // namespace
 
 extern constexpr Format opdx_format{
@@ -175,7 +171,7 @@ extern constexpr Format opdx_format{
      "with its maker's export as text."},
     {FirstLine::bottom, "Profiles only."},
     {"opdx"},
-    recognises_opdx,
+    begins_with<opdx_mark>,
     nullptr,
     read_opdx_channel};
 

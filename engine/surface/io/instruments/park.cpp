@@ -103,8 +103,6 @@ ParkHeader park_header(const SourceFile& file) {
 }
 
 HeightMap read_park(const SourceFile& file, Monitor& monitor) {
-  require_format(file, recognises_park(file),
-                 "is not a TIFF of Park's microscopes: it has no tag 50432 with their mark");
   const ParkHeader header = park_header(file);
   if (header.image_type != 0)
     refuse_file(file, "is a line profile or spectroscopy of Park's microscopes, not a map",

@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t plu_header_bytes = 500, plu_date_bytes = 128, plu_comment_bytes = 256;
 
 // "Fri Mar 10 16:35:59 2023" and a zero byte.
-bool starts_with_date(std::string_view bytes) {
+bool recognises_plu(const SourceFile& file) {
+  const std::string_view bytes = file.bytes();
   constexpr std::string_view form("Aaa Aaa 00 00:00:00 0000\0", 25);
   if (bytes.size() < form.size()) return false;
   for (std::size_t k = 0; k < form.size(); ++k) {
@@ -27,12 +28,7 @@ bool starts_with_date(std::string_view bytes) {
   return true;
 }
 
-bool recognises_plu(const SourceFile& file) {
-  return file.bytes().size() > plu_header_bytes && starts_with_date(file.bytes());
-}
-
 HeightMap read_plu(const SourceFile& file, Monitor& monitor) {
-  require_format(file, starts_with_date(file.bytes()), "is not a PLU file: it does not start with a date");
   BinaryCursor cursor(file, file.bytes(), "its header of 508 bytes");
   cursor.skip(plu_date_bytes + 4 + plu_comment_bytes);
   const std::uint64_t lines = cursor.number<std::uint32_t>(), columns = cursor.number<std::uint32_t>();

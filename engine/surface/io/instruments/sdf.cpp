@@ -163,10 +163,7 @@ HeightMap read_text(const SourceFile& file, Monitor& monitor) {
 }
 
 HeightMap read_sdf(const SourceFile& file, Monitor& monitor) {
-  if (is_version(file.bytes(), 'b')) return read_binary(file, monitor);
-  if (is_text_form(file)) return read_text(file, monitor);
-  refuse_file(file, "is not an SDF file: it starts with neither aISO, aBCR, bISO nor bBCR",
-              "if it is another format, name it with `format`");
+  return is_version(file.bytes(), 'b') ? read_binary(file, monitor) : read_text(file, monitor);
 }
 
 std::string sdf_header(const Grid& grid) {

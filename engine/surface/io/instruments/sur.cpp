@@ -35,8 +35,6 @@ struct SurHeader {
 SurHeader read_header(const SourceFile& file) {
   SurHeader header;
   header.packed = file.bytes().starts_with(compressed_mark);
-  require_format(file, header.packed || file.bytes().starts_with(plain_mark),
-                 "is not a SUR file: it does not start with DIGITAL SURF");
   BinaryCursor cursor(file, file.bytes(), "its header of 512 bytes");
   cursor.skip(plain_mark.size());
   const int order = cursor.number<std::int16_t>();

@@ -19,8 +19,6 @@ struct WsxmHeader {
 
 WsxmHeader wsxm_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  require_format(file, bytes.starts_with(wsxm_mark),
-                 "is not a WSxM file: it does not start with \"WSxM file copyright\"");
   LineReader reader(bytes);
   std::string_view line;
   std::string section;
