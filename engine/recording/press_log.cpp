@@ -8,9 +8,7 @@
 #include <filesystem>
 #include <initializer_list>
 
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/recording/log_table.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
@@ -190,9 +188,7 @@ struct Row {
 
 [[noreturn]] void refuse_event(std::size_t k, const Protocol::Step& step, const std::string& reason,
                                const std::string& hint = {}) {
-  throw Error(ErrorCode::bad_value,
-              "a press log cannot hold event " + std::to_string(k + 1) + ", " + text(step) + ": " + reason,
-              hint);
+  refuse("a press log cannot hold event " + std::to_string(k + 1) + ", " + text(step) + ": " + reason, hint);
 }
 
 class Gatherer {

@@ -111,7 +111,7 @@ RecordingMarks::RecordingMarks(const PressRecording& recording, const DetectionO
 }
 
 void RecordingMarks::refuse(const std::string& finding, const std::string& hint) const {
-  throw Error(ErrorCode::bad_file, "\"" + recording_.name + "\" " + finding, hint);
+  refuse_bad_file("\"" + recording_.name + "\" " + finding, hint);
 }
 
 void RecordingMarks::take_samples() {

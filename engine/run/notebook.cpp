@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_folder.hpp"
 
 namespace asperity {
@@ -31,8 +30,7 @@ void Notebook::order_columns(const std::vector<std::string>& columns) {
   for (const std::string& column : columns) {
     const auto [name, unit, mean_of, plain] = split_column_unit(column);
     if (!ordered.declare_column(name))
-      throw Error(ErrorCode::bad_value, "`columns` names " + quoted(name) + " twice",
-                  "give each column one place");
+      refuse("`columns` names " + quoted(name) + " twice", "give each column one place");
     if (!unit.empty()) ordered.declare_unit(name, unit);
   }
   table_ = std::move(ordered);

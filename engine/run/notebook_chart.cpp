@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity {
 
@@ -32,7 +31,7 @@ struct Columns {
 Columns find_columns(const Table& table, const NotebookChart& options) {
   Columns columns;
   columns.x = table.column(options.x, "x");
-  if (options.y.empty()) throw Error(ErrorCode::bad_value, "a chart has no `y`", "name a column");
+  if (options.y.empty()) refuse("a chart has no `y`", "name a column");
   for (const std::string& y : options.y) columns.y.push_back(table.column(y, "y"));
   if (options.one_line_per) columns.line = table.column(*options.one_line_per, "one_line_per");
   if (options.spread_column) columns.error = table.column(*options.spread_column, "spread");
@@ -45,9 +44,9 @@ Columns find_columns(const Table& table, const NotebookChart& options) {
         return text.empty() ? "a plain number" : "in " + text;
       };
       throw Error(ErrorCode::bad_unit,
-                  "`y` has columns of different units: " +
-                      asperity::quoted(table.columns()[columns.y.front()].name) + " is " + said(unit) + ", " +
-                      asperity::quoted(table.columns()[y].name) + " is " + said(table.columns()[y].unit),
+                  "`y` has columns of different units: " + quoted(table.columns()[columns.y.front()].name) +
+                      " is " + said(unit) + ", " + quoted(table.columns()[y].name) + " is " +
+                      said(table.columns()[y].unit),
                   "draw one chart for each unit");
     }
   return columns;
@@ -66,10 +65,9 @@ std::vector<std::string> names_along(const Table& table, const std::vector<std::
     if (std::ranges::find(names, *text) == names.end()) names.push_back(*text);
   }
   if (names.size() > most)
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(table.columns()[column].name) + " holds " + std::to_string(names.size()) +
-                    " different names, and an axis has room for " + std::to_string(most),
-                "choose some with `where`, or add a column of numbers");
+    refuse(quoted(table.columns()[column].name) + " holds " + std::to_string(names.size()) +
+               " different names, and an axis has room for " + std::to_string(most),
+           "choose some with `where`, or add a column of numbers");
   return names;
 }
 
@@ -189,8 +187,7 @@ double on_axis(const ExpectedValue& value, const TableColumn& column, const std:
   try {
     return parse_quantity_in(value.quantity, column.unit);
   } catch (const Error& error) {
-    throw Error(error.code(), "a line across " + asperity::quoted(column.name) + ": " + error.sentence(),
-                error.hint());
+    throw Error(error.code(), "a line across " + quoted(column.name) + ": " + error.sentence(), error.hint());
   }
 }
 
@@ -223,11 +220,9 @@ void add_fits(LineChart& chart, const NotebookChart& options, const std::vector<
   for (std::size_t k = 0; k < options.fits.size(); ++k) {
     const FittedCurve& fit = options.fits[k];
     if (fit.x != x_name || std::ranges::find(y_names, fit.y) == y_names.end())
-      throw Error(ErrorCode::bad_value,
-                  "`fit` is of " + asperity::quoted(fit.y) + " against " + asperity::quoted(fit.x) +
-                      ", and the chart shows " + asperity::quoted(joined(y_names, ", ")) + " against " +
-                      asperity::quoted(x_name),
-                  "draw the columns that were fitted");
+      refuse("`fit` is of " + quoted(fit.y) + " against " + quoted(fit.x) + ", and the chart shows " +
+                 quoted(joined(y_names, ", ")) + " against " + quoted(x_name),
+             "draw the columns that were fitted");
     std::vector<double> x, y, low, high;
     for (const CurvePoint& point : fit.curve) {
       x.push_back(in_unit(point.x, chart.x.unit));
@@ -271,12 +266,9 @@ void add_functions(LineChart& chart, const NotebookChart& options) {
     hint = rows.empty() ? "no row matches `where` " + options.where.text()
                         : "none of the " + std::to_string(rows.size()) + " rows has a number in both";
   if (!rows.empty() && unreadable.rows > 0)
-    hint = asperity::quoted(unreadable.column) + " holds names, such as \"" + unreadable.text +
+    hint = quoted(unreadable.column) + " holds names, such as \"" + unreadable.text +
            "\"; names can only be along x: add a column of numbers";
-  throw Error(
-      ErrorCode::bad_value,
-      "the chart of " + asperity::quoted(y) + " against " + asperity::quoted(x) + " has nothing to draw",
-      hint);
+  refuse("the chart of " + quoted(y) + " against " + quoted(x) + " has nothing to draw", hint);
 }
 
 // With units: all along y have that of the first, if dimensions are equal.
@@ -305,9 +297,8 @@ LineChart chart_of(const Table& given, const NotebookChart& options, std::vector
   const std::vector<std::size_t> rows = options.where.rows(given);
   columns.names = names_along(table, rows, columns.x);
   if (!columns.names.empty() && (options.log_x || !options.fits.empty() || !options.functions.empty()))
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(options.x) + " holds names, such as \"" + columns.names.front() + "\"",
-                "`log_x`, `fit` and `functions` need numbers along");
+    refuse(quoted(options.x) + " holds names, such as \"" + columns.names.front() + "\"",
+           "`log_x`, `fit` and `functions` need numbers along");
   LineChart chart;
   chart.title = options.title;
   const TableColumn& x = table.columns()[columns.x];

@@ -56,7 +56,7 @@ void Ranks::meet(const std::string& what, int ensembles) {
 namespace {
 
 [[noreturn]] void throw_apart(const std::string& what, const std::string& why) {
-  throw Error(ErrorCode::bad_state, what + " is done by all ranks together, and " + without_traceback(why));
+  refuse_state(what + " is done by all ranks together, and " + without_traceback(why));
 }
 
 }  // namespace

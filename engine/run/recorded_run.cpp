@@ -49,17 +49,25 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
   }
 }
 
-std::optional<std::string> named(const Json& entry) {
-  const Json* file = entry.find("file");
-  return file != nullptr ? std::optional(file->string()) : std::nullopt;
+struct ListedFile {
+  std::string file;
+  const Json *digest, *copy;  // null if missing
+};
+
+// Without entries that name no file.
+std::vector<ListedFile> files_in(const Json* list) {
+  std::vector<ListedFile> files;
+  if (list == nullptr) return files;
+  for (const Json& entry : list->list())
+    if (const Json* file = entry.find("file"))
+      files.push_back({file->string(), entry.find("digest"), entry.find("copy")});
+  return files;
 }
 
 // A foreign record may name only its own copies.
 void read_loaded(RecordedRun& run) {
-  for (const Json& entry : run.inputs.list()) {
-    const Json *copy = entry.find("copy"), *digest = entry.find("digest");
-    const auto file = named(entry);
-    if (copy == nullptr || digest == nullptr || !file) continue;
+  for (const auto& [file, digest, copy] : files_in(&run.inputs)) {
+    if (copy == nullptr || digest == nullptr) continue;
     const fs::path inside(copy->string()), place = run.root / inside;
     std::error_code missing;
     if (inside.parent_path() != run_names::loaded ||
@@ -69,7 +77,7 @@ void read_loaded(RecordedRun& run) {
     }
     LoadedFile loaded{text_of_run_file(place), digest->string()};
     if (content_digest(loaded.text) == loaded.digest)
-      run.loaded.emplace(*file, std::move(loaded));
+      run.loaded.emplace(file, std::move(loaded));
     else
       run.loaded_fault.push_back(quoted(inside.string()) + " was altered since the run");
   }
@@ -83,18 +91,14 @@ bool is_picture(const fs::path& file) {
 void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::string_view list,
                    std::vector<Difference>& found) {
   const auto digest_in = [&](const RecordedRun& run, const std::string& file) -> const Json* {
-    const Json* entries = run.manifest.find(list);
-    if (entries == nullptr) return nullptr;
-    for (const Json& entry : entries->list())
-      if (named(entry) == file) return entry.find("digest");
+    for (const ListedFile& listed : files_in(run.manifest.find(list)))
+      if (listed.file == file) return listed.digest;
     return nullptr;
   };
   std::vector<std::string> files;
   for (const RecordedRun* run : {&recorded, &again})
-    if (const Json* entries = run->manifest.find(list))
-      for (const Json& entry : entries->list())
-        if (const auto file = named(entry); file && std::ranges::find(files, *file) == files.end())
-          files.push_back(*file);
+    for (const ListedFile& listed : files_in(run->manifest.find(list)))
+      if (std::ranges::find(files, listed.file) == files.end()) files.push_back(listed.file);
   const std::string kind(list.substr(0, list.size() - 1));  // "outputs" -> "output"
   for (const std::string& file : files) {
     const Json *one = digest_in(recorded, file), *other = digest_in(again, file);
@@ -211,18 +215,14 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
 
 std::vector<std::string> altered_outputs(const RecordedRun& run) {
   std::vector<std::string> sentences = run.loaded_fault;
-  const Json* outputs = run.manifest.find("outputs");
-  if (outputs == nullptr) return sentences;
-  for (const Json& entry : outputs->list()) {
-    const auto file = named(entry);
-    const Json* digest = entry.find("digest");
-    if (!file || digest == nullptr) continue;
-    const fs::path place = run.root / *file;
+  for (const auto& [file, digest, copy] : files_in(run.manifest.find("outputs"))) {
+    if (digest == nullptr) continue;
+    const fs::path place = run.root / file;
     std::error_code missing;
     if (!fs::is_regular_file(place, missing))
-      sentences.push_back(quoted(*file) + " is missing from the run");
+      sentences.push_back(quoted(file) + " is missing from the run");
     else if (file_digest(place) != digest->string())
-      sentences.push_back(quoted(*file) + " was altered since the run");
+      sentences.push_back(quoted(file) + " was altered since the run");
   }
   return sentences;
 }
@@ -231,12 +231,10 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
   std::vector<std::string> sentences;
   const Json* inputs = run.ended() ? run.manifest.find("inputs") : nullptr;
   if (inputs == nullptr) return sentences;
-  for (const Json& entry : inputs->list()) {
-    const auto file = named(entry);
-    const Json* digest = entry.find("digest");
-    if (!file || digest == nullptr || entry.find("copy") != nullptr) continue;
+  for (const auto& [file, digest, copy] : files_in(inputs)) {
+    if (digest == nullptr || copy != nullptr) continue;
     bool found = false, same = false;
-    for (const fs::path& place : {fs::path(*file), run.root / *file}) {
+    for (const fs::path& place : {fs::path(file), run.root / file}) {
       std::error_code missing;
       if (same || !fs::is_regular_file(place, missing)) continue;
       found = true;
@@ -244,7 +242,7 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
     }
     if (!same)
       sentences.push_back(
-          "\"" + plain_text(*file) + "\"" +
+          "\"" + plain_text(file) + "\"" +
           (found ? " has changed since the run read it" : ", an input of the run, is not found here"));
   }
   for (std::string& sentence : altered_originals(run)) sentences.push_back(std::move(sentence));

@@ -89,13 +89,12 @@ bool has_ended(const Json& holder) {
 }
 
 [[noreturn]] void throw_held(const fs::path& folder, const std::optional<Json>& holder, bool certain) {
-  refuse_state(asperity::quoted(folder.string()) + " is being written by " +
+  refuse_state(quoted(folder.string()) + " is being written by " +
                    (holder ? "process " + (*holder)["process"].text() + " on " + (*holder)["host"].string()
                            : std::string("another process")),
-               certain
-                   ? "wait until it has ended, or give another directory"
-                   : "if it has ended, remove " + asperity::quoted((folder / RunLock::file_name).string()) +
-                         "; this file system has no locks");
+               certain ? "wait until it has ended, or give another directory"
+                       : "if it has ended, remove " + quoted((folder / RunLock::file_name).string()) +
+                             "; this file system has no locks");
 }
 
 constexpr std::string_view earlier_folder = "before-";
@@ -163,14 +162,14 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
     if (descriptor < 0 && errno == ENOENT && flags == 0) return nullptr;
     if (descriptor < 0 && errno == ELOOP) throw_link(file);
     if (descriptor < 0 && errno == EISDIR)
-      refuse_bad_file(asperity::quoted(file.string()) + " is a folder, and the lock of a run needs this name",
+      refuse_bad_file(quoted(file.string()) + " is a folder, and the lock of a run needs this name",
                       "rename or remove the folder");
     if (descriptor < 0) throw_file_error("lock", file, errno);
     const std::shared_ptr<RunLock> lock(new RunLock(folder, descriptor));
     const int reason = lock->ask_patiently(ask);
     if (reason != 0) {
       lock->hold_by_name();
-      lock->notice_ = "the file system of " + asperity::quoted(folder.string()) +
+      lock->notice_ = "the file system of " + quoted(folder.string()) +
                       " has no locks: only the stored name of its writer keeps other processes away";
       return lock;
     }
@@ -179,7 +178,7 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
       return lock;
     }
   }
-  refuse_bad_file(asperity::quoted(file.string()) + " is replaced repeatedly",
+  refuse_bad_file(quoted(file.string()) + " is replaced repeatedly",
                   "find the other program that writes there");
 }
 
