@@ -50,7 +50,7 @@ TEST(Claims, SmallFilesThatClaimMuchAreRefusedWithoutAllocating) {
   const std::string two_rows = "1 2\n3 4\n";
   const std::vector<std::pair<std::string, std::string>> files{
       {npy_of("(1000000, 1000000)"), "but has 64 bytes of data"},
-      {npy_of("(4294967296, 4294967297)"), "but has 64 bytes of data"},  // 2^32 past 64 bits
+      {npy_of("(4294967296, 4294967297)"), "4294967297 x 4294967296 heights"},  // 2^32 past 64 bits
       {npy_of("(2147483647,)"), "but has 64 bytes of data"},
       {"h=1000000 w=1000000\npixel size=1e-6 m\n" + two_rows, "1000000 columns but holds 2"},
       {"# asperity surface\n# cells = 1000000 1000000\n" + two_rows, "1000000 columns but holds 2"},

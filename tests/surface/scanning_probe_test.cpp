@@ -118,7 +118,7 @@ TEST(Ibw, EachFaultIsSaid) {
   std::string bytes = testing::IbwExample{}(six);
   expect_refusal(refusal("a.ibw", bytes.substr(0, 400)), "344 bytes and has 400 in all");
   bytes[100] = 'x';
-  expect_refusal(refusal("a.ibw", bytes), "its sum is not 0");
+  expect_refusal(refusal("a.ibw", bytes), "a header whose sum is 0");
 }
 
 // --- MI
