@@ -16,11 +16,11 @@
 #include <utility>
 
 #include "bindings/cli/watchdog.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/byte_string.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/mpi/messages.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/slabs/team.hpp"
 
 namespace asperity::cli {
@@ -48,8 +48,7 @@ std::optional<LaunchedRank> started_by_srun(bool share) {
   const auto task = rank ? rank : whole("SLURM_PROCID");
   if (share || !tasks || !task || *tasks < 2) return {};
   if (!rank || std::getenv("PMIX_NAMESPACE") == nullptr)
-    throw Error(
-        ErrorCode::bad_value,
+    refuse(
         "srun started " + std::to_string(*tasks) + " tasks without MPI, and each would run the whole script",
         "use srun --mpi=pmix or mpirun; for separate runs give each --shard i/n, or start it by "
         "env -u PMIX_RANK -u SLURM_STEP_NUM_TASKS");
@@ -83,13 +82,11 @@ MpiRanks::MpiRanks(int started) {
   mpi_ = table();
   pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
   std::array<char, 512> reason{};
-  if (mpi_->open(&rank_, &size_, reason.data(), reason.size()) != 0)
-    throw Error(ErrorCode::bad_file, reason.data());
+  if (mpi_->open(&rank_, &size_, reason.data(), reason.size()) != 0) refuse_bad_file(reason.data());
   if (size_ < started)
-    throw Error(ErrorCode::bad_value,
-                std::to_string(started) + " processes were started, and MPI joins " + std::to_string(size_) +
-                    " of them",
-                "start them by srun --mpi=pmix or by the mpirun of Open MPI");
+    refuse(std::to_string(started) + " processes were started, and MPI joins " + std::to_string(size_) +
+               " of them",
+           "start them by srun --mpi=pmix or by the mpirun of Open MPI");
   if (leads()) return;
   scratch_.emplace("rank");
   // Only rank 0 prints.

@@ -21,9 +21,7 @@
 #include "bindings/lua/spread/spread.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -61,8 +59,8 @@ std::string help_on(const Argument& value) {
     if (is_sandbox_function(L, value.index())) return "a function of Lua itself\n";
     return std::string("a function of this script, line ") + std::to_string(facts.linedefined) + "\n";
   }
-  throw Error(ErrorCode::bad_value, "`topic` is " + value.describe(),
-              "give a name such as \"surface.sine\", or a value of the laboratory");
+  refuse("`topic` is " + value.describe(),
+         "give a name such as \"surface.sine\", or a value of the laboratory");
 }
 
 Values help(Call& call) {
@@ -77,8 +75,8 @@ Dimension kind_given(const std::string& text) {
     return parse_unit(text).dimension;
   } catch (const Error&) {
     const std::vector<std::string> names = dimension_names();
-    throw Error(ErrorCode::bad_value, "`kind` is \"" + plain_text(text) + "\"" + did_you_mean(text, names),
-                "give the name of a kind, such as \"length\" or \"pressure\", or a unit of it");
+    refuse("`kind` is \"" + plain_text(text) + "\"" + did_you_mean(text, names),
+           "give the name of a kind, such as \"length\" or \"pressure\", or a unit of it");
   }
 }
 

@@ -63,7 +63,7 @@ namespace asperity {
 
 namespace {
 [[noreturn]] void refuse_absent(const std::string& sentence, const std::string& cure) {
-  throw Error(ErrorCode::bad_state, sentence + ", which WebAssembly does not have", cure);
+  refuse_state(sentence + ", which WebAssembly does not have", cure);
 }
 constexpr const char* native = "use the program that ./lab builds";
 }  // namespace

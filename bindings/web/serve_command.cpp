@@ -27,12 +27,11 @@
 #include "bindings/web/api/lesson_folder.hpp"
 #include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/sandbox/frames.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 extern char** environ;
 
@@ -68,28 +67,26 @@ bool is_v6(const std::string& address) {
 void check_address(const std::string& address) {
   in_addr v4{};
   if (::inet_pton(AF_INET, address.c_str(), &v4) != 1 && !is_v6(address))
-    throw Error(
-        ErrorCode::bad_value, "`--classroom` names " + asperity::quoted(address) + ", which is no address",
+    refuse(
+        "`--classroom` names " + asperity::quoted(address) + ", which is no address",
         "give the address this machine has in the room, such as 192.168.1.20 (`ip -brief address` shows it)");
   if (address == "0.0.0.0" || address == "::")
-    throw Error(ErrorCode::bad_value,
-                "`--classroom` names " + asperity::quoted(address) + ", which is every network at once",
-                "give the one address this machine has in the room");
+    refuse("`--classroom` names " + asperity::quoted(address) + ", which is every network at once",
+           "give the one address this machine has in the room");
 }
 
 std::vector<std::string> names_in(const std::string& path) {
   std::ifstream file(path);
   if (!file)
-    throw Error(ErrorCode::bad_file, "there is no file " + asperity::quoted(path) + " that can be read",
-                "give the students' names in it, one per line");
+    refuse_bad_file("there is no file " + asperity::quoted(path) + " that can be read",
+                    "give the students' names in it, one per line");
   std::vector<std::string> names;
   std::set<std::string> seen;
   for (std::string line; std::getline(file, line);) {
     line.erase(line.find_last_not_of(" \t\r") + 1);
     if (line.empty()) continue;
     if (!seen.insert(line).second)
-      throw Error(ErrorCode::bad_file,
-                  asperity::quoted(path) + " names " + asperity::quoted(line) + " twice");
+      refuse_bad_file(asperity::quoted(path) + " names " + asperity::quoted(line) + " twice");
     names.push_back(plain_text(line));
   }
   return names;
@@ -100,8 +97,8 @@ std::vector<Person> people_of(const ServeCommand& command) {
   std::vector<std::string> names;
   if (command.classroom.empty()) {
     if (command.students > 0 || !command.names.empty())
-      throw Error(ErrorCode::bad_value, "students were named and no room",
-                  "add --classroom ADDRESS, the address this machine has there");
+      refuse("students were named and no room",
+             "add --classroom ADDRESS, the address this machine has there");
     return {{"you", new_token()}};
   }
   check_address(command.classroom);
@@ -111,11 +108,10 @@ std::vector<Person> people_of(const ServeCommand& command) {
   else
     for (int k = 1; k <= command.students; ++k) names.push_back("student " + std::to_string(k));
   if (names.size() == 1)
-    throw Error(ErrorCode::bad_value, "a room was named and no students",
-                "add --students 30, or --names FILE, one name a line");
+    refuse("a room was named and no students", "add --students 30, or --names FILE, one name a line");
   if (names.size() > most_students + 1)
-    throw Error(ErrorCode::bad_value, std::to_string(names.size() - 1) + " students were named",
-                "at most " + std::to_string(most_students) + " can be served together");
+    refuse(std::to_string(names.size() - 1) + " students were named",
+           "at most " + std::to_string(most_students) + " can be served together");
   std::vector<Person> people;
   for (std::string& name : names) people.push_back({std::move(name), new_token()});
   return people;
@@ -147,9 +143,7 @@ fs::path session_folder(const ServeCommand& command) {
     fs::create_directories(command.out, problem);
     if (problem) throw_file_error("make the folder", command.out, problem.value());
     if (!fs::is_empty(command.out, problem) || problem)
-      throw Error(ErrorCode::bad_value,
-                  "`--out` names " + asperity::quoted(command.out) + ", which is not empty",
-                  "give a new folder");
+      refuse("`--out` names " + asperity::quoted(command.out) + ", which is not empty", "give a new folder");
     if (::chmod(command.out.c_str(), 0700) != 0)
       throw_file_error("restrict to yourself the folder", command.out, errno);
     return fs::canonical(command.out);
@@ -169,9 +163,8 @@ fs::path lesson_folder(const ServeCommand& command) {
   std::error_code problem;
   const fs::path folder = fs::canonical(command.lessons, problem);
   if (problem || !fs::is_directory(folder, problem))
-    throw Error(ErrorCode::bad_file,
-                "`--lessons` names " + asperity::quoted(command.lessons) + ", which is no folder",
-                "give a folder with lessons, files such as 01_tilt.lua");
+    refuse_bad_file("`--lessons` names " + asperity::quoted(command.lessons) + ", which is no folder",
+                    "give a folder with lessons, files such as 01_tilt.lua");
   for (const lua::Lesson& lesson : lessons_with(folder))
     if (!lesson.problem.empty()) std::fprintf(stderr, "asperity: %s\n", plain_text(lesson.problem).c_str());
   return folder;
@@ -232,8 +225,7 @@ std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& han
     server.reset(make(setup, handler, problem));
   }
   if (server == nullptr)
-    throw Error(
-        ErrorCode::bad_value,
+    refuse(
         "port " + std::to_string(setup.port) + " of " + setup.address + " cannot be listened on: " + problem,
         command.classroom.empty() ? "give another with --port, or none"
                                   : "give an address of this machine, and a port that is free");

@@ -19,10 +19,9 @@
 #include <thread>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 extern char** environ;
 
@@ -156,10 +155,9 @@ PictureFormat picture_format(const fs::path& file) {
   if (ending == ".svg") return PictureFormat::svg;
   if (ending == ".png") return PictureFormat::png;
   if (ending == ".pdf") return PictureFormat::pdf;
-  throw Error(ErrorCode::bad_value,
-              "the picture " + asperity::quoted(file.string()) +
-                  (ending.empty() ? " has no ending" : " ends in " + ending),
-              "pictures are .svg, .png or .pdf");
+  refuse("the picture " + asperity::quoted(file.string()) +
+             (ending.empty() ? " has no ending" : " ends in " + ending),
+         "pictures are .svg, .png or .pdf");
 }
 
 std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size,

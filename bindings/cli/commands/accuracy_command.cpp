@@ -20,11 +20,9 @@
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/study/study.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/study/study_result.hpp"
 
@@ -75,7 +73,7 @@ class ScriptRun {
     const lua::Argument value(L, -2), message(L, -1);
     if (value.is_number()) return {value.number(), ""};
     if (value.is_nil()) return {{}, message.is_text() ? std::string(message.text()) : std::string()};
-    throw Error(ErrorCode::bad_value, "the script returned " + value.describe(), wanted);
+    refuse("the script returned " + value.describe(), wanted);
   }
 
  private:
@@ -130,8 +128,8 @@ FirstRun run_as_written(RunContext& context) {
   const StudyAnswer answer = run.result(context.monitor);
   first.seconds = WorkPrecision::steady_seconds() - begun;
   if (answer.value) return first;
-  if (!answer.failure.empty()) throw Error(ErrorCode::bad_value, answer.failure);
-  throw Error(ErrorCode::bad_value, "the script returned nothing", wanted);
+  if (!answer.failure.empty()) refuse(answer.failure);
+  refuse("the script returned nothing", wanted);
 }
 
 StudyWay way(const std::string& name, std::vector<double> factors, std::vector<double> tolerances) {
@@ -150,8 +148,8 @@ StudyWay way(const std::string& name, std::vector<double> factors, std::vector<d
 StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor& monitor) {
   const bool grids = first.used->grids > 0, contacts = first.used->contacts > 0;
   if (!grids && !contacts)
-    throw Error(ErrorCode::bad_value, "the script has no `cells` of a surface and no contact to make finer",
-                "write a study of its own with lab.work_precision");
+    refuse("the script has no `cells` of a surface and no contact to make finer",
+           "write a study of its own with lab.work_precision");
   const double at_most = command.at_most.value_or(300);
   StudyRequest request;
   request.repeats = command.repeats;

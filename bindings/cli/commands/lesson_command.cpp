@@ -10,8 +10,7 @@
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/lua/editor/lessons.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::cli {
 
@@ -55,12 +54,12 @@ void list(const std::vector<lua::Lesson>& lessons, const std::string& option) {
 
 void copy(const lua::Lesson& lesson) {
   if (std::filesystem::exists(lesson.file))
-    throw Error(ErrorCode::bad_file, quoted(lesson.file) + " is there already, and may have been changed",
-                "move it away, or run it: asperity run " + lesson.file);
+    refuse_bad_file(quoted(lesson.file) + " is there already, and may have been changed",
+                    "move it away, or run it: asperity run " + lesson.file);
   std::ofstream file(lesson.file, std::ios::binary);
   file << lesson.script;
   file.close();
-  if (!file) throw Error(ErrorCode::bad_file, quoted(lesson.file) + " cannot be written here");
+  if (!file) refuse_bad_file(quoted(lesson.file) + " cannot be written here");
   std::printf("%s is here. Write your prediction into it, then: asperity run %s\n", lesson.file.c_str(),
               lesson.file.c_str());
 }
@@ -71,8 +70,7 @@ int lesson(const LessonCommand& command, LessonsWith with) {
   const std::string option = command.folder.empty() ? "" : " --lessons " + command.folder;
   if (command.name.empty()) {
     if (command.copy || command.run)
-      throw Error(ErrorCode::bad_value, "no lesson was named",
-                  "name one, as in asperity lesson tilt; asperity lesson lists them");
+      refuse("no lesson was named", "name one, as in asperity lesson tilt; asperity lesson lists them");
     return list(all, option), 0;
   }
   const lua::Lesson& lesson = lua::find_lesson(command.name, all);

@@ -14,8 +14,7 @@
 #include "bindings/cli/plain_streams.hpp"
 #include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/runtime/version.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
@@ -108,10 +107,9 @@ std::shared_ptr<lua::Variation> variation_of(const ReplayCommand& command) {
   auto variation = std::make_shared<lua::Variation>();
   for (const std::string& setting : command.settings) {
     if (setting.starts_with("knob.") || setting.starts_with("lab.knob."))
-      throw Error(ErrorCode::bad_value,
-                  "`--set` is " + asperity::quoted(setting) + ", and a replay takes knobs as recorded",
-                  "run its script with --knob NAME=VALUE, and --reuse " + command.recorded +
-                      " for unchanged results");
+      refuse("`--set` is " + asperity::quoted(setting) + ", and a replay takes knobs as recorded",
+             "run its script with --knob NAME=VALUE, and --reuse " + command.recorded +
+                 " for unchanged results");
     variation->set(setting);
   }
   return variation;
@@ -139,8 +137,8 @@ RunCommand repetition_of(const RecordedRun& recorded, const ReplayCommand& comma
   if (command.from) {
     const auto lines = static_cast<std::int64_t>(recorded.journal.size());
     if (*command.from < 1 || *command.from > lines)
-      throw Error(ErrorCode::bad_value, "`--from` is " + std::to_string(*command.from),
-                  "the journal of " + command.recorded + " has lines 1 to " + std::to_string(lines));
+      refuse("`--from` is " + std::to_string(*command.from),
+             "the journal of " + command.recorded + " has lines 1 to " + std::to_string(lines));
     run.afresh_from = command.from;
     run.reuse.push_back(command.recorded);
   }

@@ -26,8 +26,7 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/plot/gnuplot.hpp"
 #include "engine/run/result_files.hpp"
 #include "engine/run/run_directory.hpp"
@@ -81,17 +80,15 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     RunCommand& run = *given;
     run.seed_given = options.count("--seed") > 0;
     if ((run.shard || run.one_case || run.merge_only) && run.store_limit == 0)
-      throw Error(ErrorCode::bad_value,
-                  "`--shard`, `--case` and `--merge-only` need a store, and `--store-limit 0` stores nothing",
-                  "leave one of them out");
+      refuse("`--shard`, `--case` and `--merge-only` need a store, and `--store-limit 0` stores nothing",
+             "leave one of them out");
     if (run.script.empty() && !run.resume)
-      throw Error(ErrorCode::bad_value, "no script was named",
-                  "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
+      refuse("no script was named", "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
     run.confined = barriers.wanted(run);
     check_confinement(run);
     if (run.confined && (run.one_case || run.merge_only))
-      throw Error(ErrorCode::bad_value, "a confined run takes neither `--case` nor `--merge-only`",
-                  "share its cases by --shard, and merge them by a run without it");
+      refuse("a confined run takes neither `--case` nor `--merge-only`",
+             "share its cases by --shard, and merge them by a run without it");
     return [given, barriers] { return given->confined ? barriers.carry_out(*given) : cli::run(*given); };
   };
 }
@@ -373,9 +370,8 @@ int run_as_rank(RunCommand& command, const LaunchedRank& launched,
   std::unique_ptr<MpiRanks> ranks;
   try {
     if (shares_cases(command))
-      throw Error(ErrorCode::bad_value,
-                  "`--shard`, `--case` or `--merge-only` was given to one of the ranks of mpirun",
-                  "use one of the two: mpirun spreads the cases itself");
+      refuse("`--shard`, `--case` or `--merge-only` was given to one of the ranks of mpirun",
+             "use one of the two: mpirun spreads the cases itself");
     if (command.threads == 0) command.threads = threads_of(launched);
     ranks = std::make_unique<MpiRanks>(launched.size);
   } catch (const Error& error) {

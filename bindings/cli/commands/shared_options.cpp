@@ -11,10 +11,8 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::cli {
 
@@ -26,8 +24,7 @@ double seconds_of(const std::string& text) {
     if ((q.dimension == dimension::time || q.dimension == dimension::number) && q.value > 0) return q.value;
   } catch (const Error&) {
   }
-  throw Error(ErrorCode::bad_value, "a time limit is " + asperity::quoted(text),
-              "give a time such as 60s or \"2 min\"");
+  refuse("a time limit is " + asperity::quoted(text), "give a time such as 60s or \"2 min\"");
 }
 
 std::int64_t bytes_of(const std::string& text, const std::string& limit) {
@@ -48,8 +45,7 @@ std::int64_t bytes_of(const std::string& text, const std::string& limit) {
                   : unit == "T"                ? 0x1p40
                                                : 0;
   if (used == 0 || factor == 0 || !(value * factor >= 1 && value * factor < 0x1p62))
-    throw Error(ErrorCode::bad_value, limit + " is " + asperity::quoted(text),
-                "give bytes such as 512M or 4G");
+    refuse(limit + " is " + asperity::quoted(text), "give bytes such as 512M or 4G");
   return static_cast<std::int64_t>(value * factor);
 }
 
@@ -57,14 +53,12 @@ Shard from_slurm() {
   const auto read = [&](const char* name) -> long {
     const char* const text = std::getenv(name);
     if (text == nullptr)
-      throw Error(
-          ErrorCode::bad_value,
+      refuse(
           "`--shard slurm` reads " + std::string(name) + ", which is not set: this is no task of a job array",
           "submit it with sbatch --array=1-N, or give --shard i/n");
     const std::optional<std::uint64_t> value = count_in(text);
     if (!value)
-      throw Error(ErrorCode::bad_value, std::string(name) + " is " +
-                                            asperity::quoted(std::string_view(text)) + ", no whole number");
+      refuse(std::string(name) + " is " + asperity::quoted(std::string_view(text)) + ", no whole number");
     return static_cast<long>(*value);
   };
   const long id = read("SLURM_ARRAY_TASK_ID"), count = read("SLURM_ARRAY_TASK_COUNT");
@@ -75,20 +69,19 @@ Shard from_slurm() {
   // A resubmitted task does not know the first array's size.
   const bool whole = (first == 0 || first == 1) && last - first + 1 == count;
   if (!whole || count > 1'000'000 || index < 1 || index > count)
-    throw Error(ErrorCode::bad_value,
-                "task " + std::to_string(id) + " of a job array of " + std::to_string(count) + " from " +
-                    std::to_string(first) + " to " + std::to_string(last) + " is none of its shards",
-                "number all tasks one after the other, as in sbatch --array=1-" +
-                    std::to_string(std::max(count < 1 ? 4 : count, last)) +
-                    "; for some of them alone, give --shard i/n");
+    refuse("task " + std::to_string(id) + " of a job array of " + std::to_string(count) + " from " +
+               std::to_string(first) + " to " + std::to_string(last) + " is none of its shards",
+           "number all tasks one after the other, as in sbatch --array=1-" +
+               std::to_string(std::max(count < 1 ? 4 : count, last)) +
+               "; for some of them alone, give --shard i/n");
   return {static_cast<int>(index), static_cast<int>(count)};
 }
 
 void read_knob(GivenKnobs& knobs, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw Error(ErrorCode::bad_value, "`--knob` is " + asperity::quoted(text),
-                "give a name and its value, as in --knob pressure=\"50 MPa\"");
+    refuse("`--knob` is " + asperity::quoted(text),
+           "give a name and its value, as in --knob pressure=\"50 MPa\"");
   try {
     give_knob(knobs, text.substr(0, equals), text.substr(equals + 1));
   } catch (const Error& error) {
@@ -104,8 +97,8 @@ CaseNumber parse_case(const std::string& text) {
   const auto number = count_in(text.substr(dot + 1)).value_or(0);  // without a dot, all
   if (ensemble >= 1 && ensemble <= std::numeric_limits<int>::max() && number >= 1)
     return {static_cast<int>(ensemble), static_cast<std::size_t>(number)};
-  throw Error(ErrorCode::bad_value, "`--case` is " + asperity::quoted(text),
-              "give the number of a case, such as 17, or 2.17 for the second ensemble");
+  refuse("`--case` is " + asperity::quoted(text),
+         "give the number of a case, such as 17, or 2.17 for the second ensemble");
 }
 
 // An empty text gives no value.
@@ -202,9 +195,7 @@ void check_confinement(const RunCommand& run) {
   for (const auto& [option, given] : {std::pair("`--read`", !run.read.empty()),
                                       std::pair("`--without-barriers`", !run.without_barriers.empty()),
                                       std::pair("`--limit-disk`", run.limit_disk.has_value())})
-    if (given)
-      throw Error(ErrorCode::bad_value, std::string(option) + " needs a confined run",
-                  "add --confined, or leave it out");
+    if (given) refuse(std::string(option) + " needs a confined run", "add --confined, or leave it out");
 }
 
 void add_store_options(CLI::App& options, RunCommand& run) {
@@ -252,17 +243,17 @@ Shard parse_shard(const std::string& text) {
   const auto index = count_in(text.substr(0, slash));
   const auto count = slash == std::string::npos ? std::nullopt : count_in(text.substr(slash + 1));
   if (!index || !count || *index < 1 || *count < *index || *count > 1'000'000)
-    throw Error(ErrorCode::bad_value, "`--shard` is " + asperity::quoted(text),
-                "give i/n with i from 1 to n, as in --shard 2/3, or slurm");
+    refuse("`--shard` is " + asperity::quoted(text),
+           "give i/n with i from 1 to n, as in --shard 2/3, or slurm");
   return {static_cast<int>(*index), static_cast<int>(*count)};
 }
 
 std::string read_script(const std::string& path) {
   std::error_code problem;
   if (std::filesystem::is_directory(path, problem))
-    throw Error(ErrorCode::bad_file, quoted(path) + " is a folder", "give the path of a Lua script");
+    refuse_bad_file(quoted(path) + " is a folder", "give the path of a Lua script");
   if (::access(path.c_str(), R_OK) != 0)
-    throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
+    refuse_bad_file("there is no script " + quoted(path) + " that can be read");
   return text_of_file(path);
 }
 

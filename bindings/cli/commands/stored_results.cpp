@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "bindings/lua/runtime/version.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/program_identity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_folder.hpp"
 
 namespace asperity::cli {
@@ -21,22 +20,22 @@ std::filesystem::path results_of(const std::string& named) {
   const std::filesystem::path folder(named);
   std::error_code problem;
   if (!std::filesystem::is_directory(folder, problem))
-    throw Error(ErrorCode::bad_value, "`--reuse` names " + asperity::quoted(named) + ", which is no folder",
-                "give the directory of a run");
+    refuse("`--reuse` names " + asperity::quoted(named) + ", which is no folder",
+           "give the directory of a run");
   const std::filesystem::path store = folder / run_names::store;
   const bool is_run = std::filesystem::exists(folder / run_names::manifest, problem) ||
                       std::filesystem::exists(std::filesystem::symlink_status(store, problem));
   if (!is_run) return folder;
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(store, problem)))
-    throw Error(ErrorCode::bad_value, asperity::quoted(store.string()) + " is a link",
-                "name the folder of results itself with `--reuse`");
+    refuse(asperity::quoted(store.string()) + " is a link",
+           "name the folder of results itself with `--reuse`");
   return store;
 }
 
 RunCommand begun_there(RunCommand command) {
   if (command.script.empty())
-    throw Error(ErrorCode::bad_file, "there is no run " + asperity::quoted(*command.resume) + " to resume",
-                "give the script to begin it with");
+    refuse_bad_file("there is no run " + asperity::quoted(*command.resume) + " to resume",
+                    "give the script to begin it with");
   command.out = std::exchange(command.resume, std::nullopt);
   return command;
 }
@@ -82,10 +81,9 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
 void take_share(RunCommand& command, const RecordedRun& recorded) {
   if (recorded.store.empty()) return;
   if (!command.barriers.is_null() && !command.store)
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(recorded.root.string()) + " shares the folder " +
-                    asperity::quoted(recorded.store) + ", which a confined run does not take from a record",
-                "give it by --store");
+    refuse(asperity::quoted(recorded.root.string()) + " shares the folder " +
+               asperity::quoted(recorded.store) + ", which a confined run does not take from a record",
+           "give it by --store");
   if (!command.store) command.store = recorded.store;
   if (!command.shard && !recorded.shard.empty()) command.shard = parse_shard(recorded.shard);
 }
@@ -98,23 +96,20 @@ void require_same_version(const RecordedRun& recorded) {
   const std::string by = version.empty() ? "a version it does not name" : "version " + version;
   const std::string begins_anew = "add `--reuse " + recorded.root.string() + "` to begin anew there";
   if (recorded.status == "done")
-    throw Error(ErrorCode::bad_value,
-                joined(damages_of(recorded), "; ") + "; " + run + " was recorded by " + by +
-                    ", and this is " + lua::version_text() + ", which may give other bytes",
-                "restore it with the version that recorded it, or " + begins_anew);
-  throw Error(ErrorCode::bad_value,
-              run + " was begun by " + by + ", and this is " + lua::version_text() +
-                  ": one record cannot hold two versions",
-              "go on with the version that began it, or " + begins_anew);
+    refuse(joined(damages_of(recorded), "; ") + "; " + run + " was recorded by " + by + ", and this is " +
+               lua::version_text() + ", which may give other bytes",
+           "restore it with the version that recorded it, or " + begins_anew);
+  refuse(run + " was begun by " + by + ", and this is " + lua::version_text() +
+             ": one record cannot hold two versions",
+         "go on with the version that began it, or " + begins_anew);
 }
 
 void require_unchanged(const std::vector<std::string>& changed, const std::string& run) {
   if (changed.empty()) return;
-  throw Error(ErrorCode::bad_value,
-              joined(changed, " and ") + " of " + asperity::quoted(run) +
-                  (changed.size() > 1 ? " are" : " is") + " not the one given now",
-              "leave it out to resume as recorded, or add `--reuse " + run +
-                  "` to begin anew there with the unchanged results");
+  refuse(joined(changed, " and ") + " of " + asperity::quoted(run) + (changed.size() > 1 ? " are" : " is") +
+             " not the one given now",
+         "leave it out to resume as recorded, or add `--reuse " + run +
+             "` to begin anew there with the unchanged results");
 }
 
 // Returns false for a complete run.
@@ -135,7 +130,7 @@ bool note_damages(RunCommand& command, const RecordedRun& recorded) {
   if (rebuilt || damaged)
     command.journal_lost = true;
   else if (!recorded.journal_hint.empty())
-    throw Error(ErrorCode::bad_file, recorded.journal_fault, recorded.journal_hint);
+    refuse_bad_file(recorded.journal_fault, recorded.journal_hint);
   return true;
 }
 
@@ -143,18 +138,14 @@ bool note_damages(RunCommand& command, const RecordedRun& recorded) {
 
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
   if (recorded.manifest.find("prompt") != nullptr)
-    throw Error(
-        ErrorCode::bad_value,
-        asperity::quoted(recorded.root.string()) + " is a session of the prompt, without a whole journal",
-        "run its lines again by `asperity run " + (recorded.root / run_names::script).string() + "`");
+    refuse(asperity::quoted(recorded.root.string()) + " is a session of the prompt, without a whole journal",
+           "run its lines again by `asperity run " + (recorded.root / run_names::script).string() + "`");
   if (command.trust == recorded.trusted) return;
   if (recorded.trusted)
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(recorded.root.string()) + " was recorded with `--trust`",
-                std::string("add `--trust` to ") + purpose + " it so");
-  throw Error(ErrorCode::bad_value,
-              asperity::quoted(recorded.root.string()) + " was recorded without `--trust`",
-              std::string("leave `--trust` out to ") + purpose + " it as it was");
+    refuse(asperity::quoted(recorded.root.string()) + " was recorded with `--trust`",
+           std::string("add `--trust` to ") + purpose + " it so");
+  refuse(asperity::quoted(recorded.root.string()) + " was recorded without `--trust`",
+         std::string("leave `--trust` out to ") + purpose + " it as it was");
 }
 
 void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell) {

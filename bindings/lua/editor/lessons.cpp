@@ -100,8 +100,8 @@ std::map<std::string, std::string> named_texts(std::string_view file, const std:
     } else if (colon != std::string::npos && colon > 0) {
       last = &(named[line.substr(0, colon)] = without_margins(line.substr(colon + 1)));
     } else if (!without_margins(line).empty()) {
-      throw Error(ErrorCode::bad_file, quoted(file) + " has a line " + quoted(line),
-                  "give an answer as `name: text`; indent its further lines");
+      refuse_bad_file(quoted(file) + " has a line " + quoted(line),
+                      "give an answer as `name: text`; indent its further lines");
     }
   }
   return named;
@@ -111,7 +111,7 @@ void check_lesson_grammar(const std::string& file, std::string_view script) {
   const std::unique_ptr<lua_State, decltype(&lua_close)> state(luaL_newstate(), lua_close);
   if (state == nullptr) throw std::bad_alloc();
   if (luaL_loadbufferx(state.get(), script.data(), script.size(), ("=" + file).c_str(), "t") != LUA_OK)
-    throw Error(ErrorCode::bad_file, lua_tostring(state.get(), -1), "`asperity check` explains it");
+    refuse_bad_file(lua_tostring(state.get(), -1), "`asperity check` explains it");
 }
 
 void check_lesson(const Lesson& lesson, const std::string& code) {
@@ -122,11 +122,11 @@ void check_lesson(const Lesson& lesson, const std::string& code) {
         {"a line `-- Minutes: N`", lesson.minutes <= 0},
         {"an explanation after an empty comment line", lesson.explanation.empty()}})
     if (missing)
-      throw Error(ErrorCode::bad_file, "the lesson " + quoted(lesson.file) + " lacks " + what,
-                  "its opening comment says what it is about");
+      refuse_bad_file("the lesson " + quoted(lesson.file) + " lacks " + what,
+                      "its opening comment says what it is about");
   if (!code.empty() && code != "hidden")
-    throw Error(ErrorCode::bad_file, "the lesson " + quoted(lesson.file) + " has `Code: " + code + "`",
-                "say `Code: hidden`, or leave the line out");
+    refuse_bad_file("the lesson " + quoted(lesson.file) + " has `Code: " + code + "`",
+                    "say `Code: hidden`, or leave the line out");
 }
 
 }  // namespace
@@ -136,8 +136,7 @@ Lesson read_lesson(std::string_view stem, std::string_view script) {
   lesson.file = std::string(stem) + ".lua";
   const auto [rest, problem] = std::from_chars(stem.data(), stem.data() + stem.size(), lesson.number);
   if (problem != std::errc() || rest == stem.data() + stem.size() || *rest != '_')
-    throw Error(ErrorCode::bad_file, "the lesson " + quoted(stem) + " has no number",
-                "call its file such as 06_tilt.lua");
+    refuse_bad_file("the lesson " + quoted(stem) + " has no number", "call its file such as 06_tilt.lua");
   lesson.name = std::string(rest + 1, stem.data() + stem.size());
 
   const LessonLines lines = lesson_lines(script);
@@ -189,10 +188,9 @@ std::string script_of_markdown(std::string_view file, std::string_view text) {
     }
   }
   if (blocks != 1 || in_code)
-    throw Error(ErrorCode::bad_file,
-                in_code ? quoted(file) + " has a block ```lua without its end ```"
-                        : quoted(file) + " has " + std::to_string(blocks) + " blocks ```lua",
-                "a lesson in Markdown has its script in one block ```lua");
+    refuse_bad_file(in_code ? quoted(file) + " has a block ```lua without its end ```"
+                            : quoted(file) + " has " + std::to_string(blocks) + " blocks ```lua",
+                    "a lesson in Markdown has its script in one block ```lua");
   return head + "\n" + code;
 }
 
@@ -224,7 +222,7 @@ const Lesson& find_lesson(std::string_view called, const std::vector<Lesson>& al
   std::vector<std::string> names;
   for (const Lesson& lesson : all) {
     if (!lesson.problem.empty()) {
-      if (called == lesson.file) throw Error(ErrorCode::bad_file, lesson.problem);
+      if (called == lesson.file) refuse_bad_file(lesson.problem);
       continue;
     }
     const std::string stem = lesson.file.substr(0, lesson.file.size() - 4);

@@ -16,7 +16,7 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/plot/palette.hpp"
 #include "engine/plot/picture.hpp"
 #include "engine/plot/text_picture.hpp"
@@ -99,9 +99,8 @@ void show_numbers(const Call& call, const Argument& table) {
   ChartSeries& line = chart.series.emplace_back();
   table.elements([&](const Argument& value, std::int64_t k) {
     if (!value.is_number())
-      throw Error(ErrorCode::bad_value,
-                  "element " + std::to_string(k) + " of the list is " + value.describe(),
-                  "give a list of numbers");
+      refuse("element " + std::to_string(k) + " of the list is " + value.describe(),
+             "give a list of numbers");
     line.x.push_back(static_cast<double>(k));
     line.y.push_back(value.number());
   });
@@ -109,7 +108,7 @@ void show_numbers(const Call& call, const Argument& table) {
 }
 
 Values show_value(const Call& call) {
-  if (call.count() > 2) throw Error(ErrorCode::bad_value, "show takes at most 2 arguments");
+  if (call.count() > 2) refuse("show takes at most 2 arguments");
   const Argument value = call.argument(1);
   if (const Surface* surface = call.given(1) ? value.as<Surface>() : nullptr) {
     show_map(call, surface->grid(), surface->measured_heights(), "height", dimension::length);
@@ -127,9 +126,9 @@ Values show_value(const Call& call) {
   } else if (call.given(1) && value.is_table() && value.length() > 0) {
     show_numbers(call, value);
   } else {
-    throw Error(ErrorCode::bad_value, "this is " + (call.given(1) ? value.describe() : "nothing"),
-                "show draws a surface, a state, a field, a profile, a list of numbers, or a notebook with "
-                "show(book, { x=\"N\", y=\"Ra\" })");
+    refuse("this is " + (call.given(1) ? value.describe() : "nothing"),
+           "show draws a surface, a state, a field, a profile, a list of numbers, or a notebook with "
+           "show(book, { x=\"N\", y=\"Ra\" })");
   }
   return {};
 }

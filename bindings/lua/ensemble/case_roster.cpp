@@ -26,7 +26,7 @@ constexpr std::size_t most_listed = 100'000;
 
 const Json& roster_member(const Json& json, std::string_view name) {
   if (const Json* found = json.find(name)) return *found;
-  throw Error(ErrorCode::bad_file, "a list of cases has no `" + std::string(name) + "`");
+  refuse_bad_file("a list of cases has no `" + std::string(name) + "`");
 }
 
 CaseRoster roster_from(const Json& json) {

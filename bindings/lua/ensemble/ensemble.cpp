@@ -14,6 +14,7 @@
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -185,8 +186,7 @@ Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run)
   const Argument::StackGuard guard(L);
   lua_pushvalue(L, run.index());
   push_checked(L, case_values(first), "a case");
-  if (const auto failure = failure_of_call(L, 1, 1))
-    throw Error(ErrorCode::bad_value, case_name(first) + ": " + *failure);
+  if (const auto failure = failure_of_call(L, 1, 1)) refuse(case_name(first) + ": " + *failure);
   const Argument returned(L, -1);
   std::vector<std::string> fields;
   bool known = true;
@@ -202,7 +202,7 @@ Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run)
   else if (returned.is_unknown())
     known = false;
   else
-    throw Error(ErrorCode::bad_value, case_name(first) + ": " + wrong_return(returned.describe()));
+    refuse(case_name(first) + ": " + wrong_return(returned.describe()));
   std::sort(fields.begin(), fields.end());
   List rows;
   rows.rows = true;
@@ -289,7 +289,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
                                   const std::vector<std::size_t>& failed) {
   const auto named = [&](std::size_t k) { return case_name(keys.values(k)) + ": "; };
   const std::string& first = results[failed.front()].failure;
-  if (results.size() == 1) throw Error(ErrorCode::bad_value, named(0) + first);
+  if (results.size() == 1) refuse(named(0) + first);
   const std::size_t others = results.size() - failed.size();
   std::string sentence =
       std::to_string(failed.size()) + " of " + std::to_string(results.size()) + " cases failed";
@@ -307,15 +307,15 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   if (failed.size() > most) sentence += "\n  and " + std::to_string(failed.size() - most) + " more";
   if (const std::size_t at = first.find("\nstack traceback:"); at != std::string::npos)
     sentence += "\nwhere the first of them failed:" + first.substr(at);
-  throw Error(ErrorCode::bad_value, sentence);
+  refuse(sentence);
 }
 
 Values ensemble(Call& call) {
   const EnsembleKeys keys = call.options(ensemble_block);
   Session& session = call.session();
   if (session.depth >= deepest_case)
-    throw Error(ErrorCode::bad_value, "this ensemble is inside " + std::to_string(deepest_case) + " others",
-                "let the outer ones vary more keys in `over` instead");
+    refuse("this ensemble is inside " + std::to_string(deepest_case) + " others",
+           "let the outer ones vary more keys in `over` instead");
   return with_key(call.argument(1), "run", [&](const Argument& run) -> Values {
     const CaseSetup common = common_setup(call.L, session,
                                           pack(call.L, run.index(), Cargo::functions, "run",
@@ -324,10 +324,9 @@ Values ensemble(Call& call) {
     std::string place = where(call.L);
     place = place.empty() ? "of the script" : "at " + place.substr(0, place.size() - 2);
     if (keys.count() == 0)
-      throw Error(ErrorCode::bad_value,
-                  std::string(keys.cases ? "`cases` is empty" : "a list in `over` is empty") +
-                      ", so there is no case",
-                  "give each list a value");
+      refuse(std::string(keys.cases ? "`cases` is empty" : "a list in `over` is empty") +
+                 ", so there is no case",
+             "give each list a value");
     if (session.dry_run) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
       if (session.on_ensemble)

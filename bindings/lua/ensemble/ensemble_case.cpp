@@ -14,8 +14,7 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -85,7 +84,7 @@ void capture_output(lua_State* L) {
 
 [[noreturn]] void fail(lua_State* L) {
   stop_flag().check();
-  throw Error(ErrorCode::bad_value, error_text(L, -1));
+  refuse(error_text(L, -1));
 }
 
 // Equality without metamethods.
@@ -100,7 +99,7 @@ void make_table(lua_State* L) {
   const Argument returned(L, -1);
   if (returned.is_table()) return;
   const std::shared_ptr<Record> record = record_at(L, -1);
-  if (record == nullptr) throw Error(ErrorCode::bad_value, wrong_return(returned.describe()));
+  if (record == nullptr) refuse(wrong_return(returned.describe()));
   Map fields;
   for (const Record::Entry& entry : record->entries) fields.items.emplace_back(entry.field, entry.value);
   push_checked(L, std::move(fields), "what a case returned");
@@ -111,10 +110,9 @@ void refuse_other_values(const CaseSetup& setup, const Argument& returned, const
     with_key(returned, value.key, [&](const Argument& found) {
       with_key(given, value.key, [&](const Argument& own) {
         if (!found.is_nil() && !same(found, own))
-          throw Error(ErrorCode::bad_value,
-                      "`run` returned " + quoted(value.key) + " = " + found.describe() + ", but " +
-                          quoted(value.key) + " is " + value.text + " in this case",
-                      "give the column another name");
+          refuse("`run` returned " + quoted(value.key) + " = " + found.describe() + ", but " +
+                     quoted(value.key) + " is " + value.text + " in this case",
+                 "give the column another name");
       });
     });
 }

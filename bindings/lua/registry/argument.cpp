@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "bindings/lua/registry/declarations.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -103,8 +102,7 @@ bool Callback::answer(std::initializer_list<double> arguments, std::string_view 
   const Argument::StackGuard guard(function_.state());
   const Argument result = called(arguments, key);
   if (!result.is_boolean())
-    throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
-                "it must return true or false");
+    refuse("the function " + quoted(key) + " returned " + result.describe(), "it must return true or false");
   return result.boolean();
 }
 
@@ -127,18 +125,17 @@ Argument Callback::called(std::initializer_list<Number> arguments, std::string_v
                          value.describe());
       });
     std::ranges::sort(fields);
-    throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " failed: " +
-                                          (error.is_text()  ? std::string(error.text())
-                                           : fields.empty() ? error.describe()
-                                                            : "a table: " + joined(fields, ", ")));
+    refuse("the function " + quoted(key) + " failed: " +
+           (error.is_text()  ? std::string(error.text())
+            : fields.empty() ? error.describe()
+                             : "a table: " + joined(fields, ", ")));
   }
   return Argument(L, -1);
 }
 
 double Callback::number_of(const Argument& result, std::string_view key) {
   if (!result.is_number())
-    throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
-                "it must return a number");
+    refuse("the function " + quoted(key) + " returned " + result.describe(), "it must return a number");
   return result.number();
 }
 

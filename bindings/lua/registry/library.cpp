@@ -9,8 +9,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
@@ -21,13 +20,12 @@ void check_count(const Call& call, const Function& function) {
   if (!function.parameters.empty() && function.parameters.back().name == "...") return;
   const std::size_t most = function.parameters.size() + (function.options != nullptr ? 1 : 0);
   if (call.count() > static_cast<int>(most))
-    throw Error(ErrorCode::bad_value,
-                call.function_name() + " takes " +
-                    (most == 0   ? std::string("no arguments")
-                     : most == 1 ? std::string("one argument")
-                                 : "at most " + std::to_string(most) + " arguments") +
-                    (most == 1 && function.options != nullptr ? ", a table of named keys," : "") +
-                    " and was given " + std::to_string(call.count()));
+    refuse(call.function_name() + " takes " +
+           (most == 0   ? std::string("no arguments")
+            : most == 1 ? std::string("one argument")
+                        : "at most " + std::to_string(most) + " arguments") +
+           (most == 1 && function.options != nullptr ? ", a table of named keys," : "") + " and was given " +
+           std::to_string(call.count()));
 }
 
 bool any_argument_unknown(const Call& call) {
@@ -102,13 +100,11 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
   if (entry.owner != nullptr) {
     const Object* self = Argument(L, 1).as_object(*entry.owner);
     if (self == nullptr)
-      throw Error(ErrorCode::bad_value,
-                  entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
-                      entry.owner->article_name,
-                  "write a colon: x:" + function.name + "(...)");
+      refuse(entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
+                 entry.owner->article_name,
+             "write a colon: x:" + function.name + "(...)");
     if (self->closed && function.name == "close") return {};  // a second close is harmless
-    if (self->closed)
-      throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
+    if (self->closed) refuse_state(entry.owner->article_name + " was used after it was closed");
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);

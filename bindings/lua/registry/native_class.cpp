@@ -5,7 +5,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -22,7 +22,7 @@ int raised(lua_State* L, const std::string& name, const Body& body) {
 }
 
 [[noreturn]] void refuse_closed(const Class& type) {
-  throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+  refuse_state(type.article_name + " was used after it was closed");
 }
 
 // t[k]. A dry run does not know how many rows a table has; a loop over them runs once.
@@ -53,7 +53,7 @@ int guarded_field(lua_State* L, const Class& type) {
   return guarded(L, "", [&]() -> Values {
     const Argument key(L, 2);
     const Object* self = Argument(L, 1).as_object(type);
-    if (self == nullptr) throw Error(ErrorCode::bad_value, "this is not " + type.article_name);
+    if (self == nullptr) refuse("this is not " + type.article_name);
     if (type.item != nullptr && key.is_number() && key.integer()) return {item_of(*self, *key.integer())};
     if (!key.is_text())
       throw Error(ErrorCode::unknown_name, type.article_name + " was indexed with " + key.describe(),
@@ -186,8 +186,7 @@ int outer_pairs(lua_State* L) {
   }
   static const std::string name = "pairs";
   return raised(L, name, [&]() -> Values {
-    throw Error(ErrorCode::bad_value, type.article_name + " is no table",
-                "help \"" + type.name + "\" lists its fields and methods");
+    refuse(type.article_name + " is no table", "help \"" + type.name + "\" lists its fields and methods");
   });
 }
 

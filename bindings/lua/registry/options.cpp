@@ -7,6 +7,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/registry/variation.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -121,7 +122,7 @@ Problems unknown_keys(const Argument& table, const std::vector<const OptionInfo*
                 unknown ? problems.back() : "");
   std::string sentence = caller + ": " + std::to_string(count) + " problems";
   for (const std::string& problem : problems) sentence += "\n  " + problem;
-  throw Error(ErrorCode::bad_value, sentence);
+  refuse(sentence);
 }
 
 }  // namespace
@@ -238,9 +239,8 @@ void read_table(const Argument& table, const std::string& caller,
                 const std::function<void(std::size_t, const Argument&, Problems&)>& read,
                 const std::function<void(Problems&)>& finish) {
   if (!table.is_nil() && !table.is_table())
-    throw Error(ErrorCode::bad_value,
-                caller + " takes one table of named keys, and was given " + table.describe(),
-                "write " + caller + "{ ... }");
+    refuse(caller + " takes one table of named keys, and was given " + table.describe(),
+           "write " + caller + "{ ... }");
   std::vector<bool> seen(options.size(), false);
   // In the block's order: Lua's varies.
   const Problems unknown = unknown_keys(table, options, seen);

@@ -130,7 +130,7 @@ int next_of(lua_State* L) {
   static const std::string nothing;
   return guarded(L, nothing, [&]() -> Values {
     auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
-    if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
+    if (block == nullptr || *block == nullptr) refuse_state("the iterator is finished");
     const std::shared_ptr<Iterator> iterator = *block;
     Call call(L, iterator->name, true);
     if (auto results = turn_of(call, *iterator)) return *std::move(results);
@@ -152,7 +152,7 @@ int guarded_table(lua_State* L) {
   return guarded(L, nothing, [&]() -> Values {
     auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
     if (block == nullptr || *block == nullptr)
-      throw Error(ErrorCode::bad_state, "the iterator is finished", "write c:sweep{…}:table{…}");
+      refuse_state("the iterator is finished", "write c:sweep{…}:table{…}");
     const std::shared_ptr<Iterator> iterator = std::exchange(*block, nullptr);
     const std::string name = iterator->name + ":table";
     Call call(L, name, true);

@@ -3,8 +3,7 @@
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -19,7 +18,7 @@ bool Call::notes_inputs() const { return !session().is_case; }
 void* Call::self_pointer(const Class& type) const {
   const Object* object = Argument(L, 1).as_object(type);
   if (object == nullptr || object->pointer == nullptr)
-    throw Error(ErrorCode::bad_state, "this is not " + type.article_name + " that can be used");
+    refuse_state("this is not " + type.article_name + " that can be used");
   return object->pointer.get();
 }
 
@@ -32,9 +31,9 @@ void* Call::object_pointer(int k, std::string_view name, const Class& type) cons
       for (const Record::Entry& entry : record->entries)
         if (const auto* part = std::get_if<Object>(&entry.value.data); part != nullptr && part->type == &type)
           wanted += ", such as its `" + entry.field + "`";
-    throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), wanted);
+    refuse(quoted(name) + " is " + value.describe(), wanted);
   }
-  if (object->pointer == nullptr) throw Error(ErrorCode::bad_state, quoted(name) + " was closed");
+  if (object->pointer == nullptr) refuse_state(quoted(name) + " was closed");
   return object->pointer.get();
 }
 
@@ -47,15 +46,13 @@ double Call::quantity(int k, std::string_view name, Dimension dimension) const {
   info.dimension = dimension;
   Problems problems;
   const auto number = detail::read_quantity(value, info, any(), problems);
-  if (!number)
-    throw Error(ErrorCode::bad_value, problems.empty() ? quoted(name) + " is not known" : problems.front());
+  if (!number) refuse(problems.empty() ? quoted(name) + " is not known" : problems.front());
   return *number;
 }
 
 std::string Call::text(int k, std::string_view name, const std::string& wanted) const {
   const Argument value = argument(k);
-  if (!value.is_text())
-    throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give " + wanted);
+  if (!value.is_text()) refuse(quoted(name) + " is " + value.describe(), "give " + wanted);
   return std::string(value.text());
 }
 

@@ -6,8 +6,7 @@
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -38,8 +37,8 @@ void Variation::set(const std::string& text) {
   if (dot != std::string::npos) setting.caller = name.substr(0, dot);
   setting.key = dot == std::string::npos ? name : name.substr(dot + 1);
   if (equals == std::string::npos || setting.key.empty())
-    throw Error(ErrorCode::bad_value, "`--set` is " + quoted(text),
-                "give a key and its value, as in --set pressure=\"200 MPa\" or --set press.dwell=\"1 min\"");
+    refuse("`--set` is " + quoted(text),
+           "give a key and its value, as in --set pressure=\"200 MPa\" or --set press.dwell=\"1 min\"");
   setting.value = text.substr(equals + 1);
   if (setting.value.size() >= 2 && setting.value.front() == '"' && setting.value.back() == '"')
     setting.value = setting.value.substr(1, setting.value.size() - 2);
@@ -76,15 +75,13 @@ void Variation::note_refused(std::string_view caller, std::string_view key, cons
 
 void Variation::check_all_met() const {
   const std::lock_guard lock(mutex_);
-  if (!refused_.empty())
-    throw Error(ErrorCode::bad_value, refused_, "give a value as the script would write it");
+  if (!refused_.empty()) refuse(refused_, "give a value as the script would write it");
   for (const Setting& setting : settings_) {
     if (setting.met) continue;
     if (keys_of_knobs_.contains(setting.key) && !keys_.contains(setting.key))
-      throw Error(ErrorCode::bad_value,
-                  "`--set` is of the key " + quoted(setting.key) +
-                      ", which only a knob gives, and a replay takes knobs as recorded",
-                  "run its script with --knob NAME=VALUE");
+      refuse("`--set` is of the key " + quoted(setting.key) +
+                 ", which only a knob gives, and a replay takes knobs as recorded",
+             "run its script with --knob NAME=VALUE");
     std::vector<std::string> meant, all;
     for (const auto& [key, callers] : keys_) {
       all.push_back(key);

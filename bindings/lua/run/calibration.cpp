@@ -10,8 +10,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/table_operations.hpp"
 
@@ -193,9 +192,8 @@ Values chart_calibration(Call& call) {
   const CalibrationReport& report = call.self<CalibrationReport>();
   const CalibrationChartKeys keys = call.options(calibration_chart_block);
   if (keys.likelihood && keys.x)
-    throw Error(ErrorCode::bad_value,
-                "`x` has no effect on the chart of the likelihood, which has the parameters along x",
-                "leave out `x` or `likelihood`");
+    refuse("`x` has no effect on the chart of the likelihood, which has the parameters along x",
+           "leave out `x` or `likelihood`");
   const std::string file = keys.file.value_or(
       safe_file_name("calibration-" + report.y + (keys.likelihood ? "-likelihood" : "")) + ".svg");
   picture_format(file);
@@ -255,8 +253,7 @@ Option<CalibrationKeys> profile_option() {
 CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& keys) {
   const Rows chosen = rows_of(table, keys.where.rows(table));
   if (chosen.rows() == 0 && !keys.where.empty() && !TableFilter().rows(table).empty())
-    throw Error(ErrorCode::bad_value, "no row matches `where` " + keys.where.text(),
-                "give values that its columns hold");
+    refuse("no row matches `where` " + keys.where.text(), "give values that its columns hold");
   std::vector<std::pair<std::string, std::string>> named = {{"y", keys.y}};
   const std::size_t y = chosen.column(keys.y, "y");
   std::set<std::size_t> told = {y};
@@ -292,9 +289,8 @@ CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& key
     if (specimen && is_empty(chosen.cell(row, *specimen))) continue;
     const double weight = weights ? numbers.values[*weights][k] : 1;
     if (weight < 0)
-      throw Error(ErrorCode::bad_value,
-                  "the weight of row " + std::to_string(row + 1) + " is " + format_short(weight),
-                  "weights are not negative; give the uncertainty of y as `u` where it is known");
+      refuse("the weight of row " + std::to_string(row + 1) + " is " + format_short(weight),
+             "weights are not negative; give the uncertainty of y as `u` where it is known");
     if (weight == 0) continue;
     used.push_back(row);
     found.numbers.push_back(row + 1);

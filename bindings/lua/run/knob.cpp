@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "bindings/lua/registry/session.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_knobs.hpp"
 
@@ -73,8 +72,7 @@ Values set_knob(Call& call) {
   const std::string name = call.text(1, "name");
   const Argument value = call.argument(2);
   if (!value.is_number() && !value.is_text())
-    throw Error(ErrorCode::bad_value, "`value` is " + value.describe(),
-                "give a number or a quantity such as \"50 MPa\"");
+    refuse("`value` is " + value.describe(), "give a number or a quantity such as \"50 MPa\"");
   Session& session = call.session();
   if (!session.move_knob)
     throw Error(ErrorCode::not_permitted, "a script does not move its knobs: it would run itself again",

@@ -10,7 +10,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/notebook_chart.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/table_operations.hpp"
@@ -84,13 +84,12 @@ void look_at_chart(const Call& call) {
 Values units(Call& call) {
   const Argument table = call.argument(1);
   if (!table.is_table())
-    throw Error(ErrorCode::bad_value, "book:units was given " + table.describe(),
-                "write book:units{ Ra=\"um\", p=\"MPa\" }");
+    refuse("book:units was given " + table.describe(), "write book:units{ Ra=\"um\", p=\"MPa\" }");
   std::map<std::string, std::string> declared;  // by name, as rows
   table.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text() || !value.is_text())
-      throw Error(ErrorCode::bad_value, "book:units met " + key.describe() + " = " + value.describe(),
-                  "write book:units{ Ra=\"um\", p=\"MPa\" }");
+      refuse("book:units met " + key.describe() + " = " + value.describe(),
+             "write book:units{ Ra=\"um\", p=\"MPa\" }");
     declared.emplace(key.text(), value.text());
   });
   for (const auto& [column, unit] : declared) call.self<Notebook>().declare_unit(column, unit);

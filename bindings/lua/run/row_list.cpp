@@ -7,6 +7,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
+#include "engine/core/require.hpp"
 #include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {
@@ -112,8 +113,8 @@ Table table_of_rows(const Call& call, const Argument& rows) {
       else if (given.is_table())
         add_cells(row, given);
       else
-        throw Error(ErrorCode::bad_value, "row " + std::to_string(k) + " is " + given.describe(),
-                    "a row is a table of columns, such as { N=1, mu=0.4 }");
+        refuse("row " + std::to_string(k) + " is " + given.describe(),
+               "a row is a table of columns, such as { N=1, mu=0.4 }");
       if (!row.empty()) table.append(row);
     });
   const Argument::StackGuard guard(rows.state());
@@ -122,8 +123,8 @@ Table table_of_rows(const Call& call, const Argument& rows) {
       if (table.find_column(name.text())) table.declare_unit(name.text(), unit.text());
     });
   if (table.columns().empty())
-    throw Error(ErrorCode::bad_value, "the list holds no row with a number, a string or a boolean",
-                "give a table or a notebook, or a list of rows such as { { N=1, mu=0.4 } }");
+    refuse("the list holds no row with a number, a string or a boolean",
+           "give a table or a notebook, or a list of rows such as { { N=1, mu=0.4 } }");
   return table;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_encoding.hpp"
+#include "engine/core/require.hpp"
 #include "engine/statistics/table_operations.hpp"
 #include "engine/statistics/table_reader.hpp"
 #include "engine/surface/io/foreign_format.hpp"
@@ -26,8 +27,7 @@ Values rows_where(Call& call) {
   TableFilter filter;
   Problems problems;
   read_filter(call.argument(1), info, filter, problems);
-  if (!problems.empty())
-    throw Error(ErrorCode::bad_value, joined(problems, "; "), "write it such as t:where{ N=8 }");
+  if (!problems.empty()) refuse(joined(problems, "; "), "write it such as t:where{ N=8 }");
   const auto table = table_of_self(call);
   const std::vector<std::size_t> rows = filter.rows(*table);
   if (rows.empty() && table->rows() > 0)
@@ -76,7 +76,7 @@ Rows table_given(const Call& call, int k, const char* name) {
   if (const auto* table = value.as<Rows>()) return *table;
   if (const auto* book = value.as<Notebook>()) return book->table();
   if (value.is_table()) return table_of_rows(call, value);
-  throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give a table or a notebook");
+  refuse(quoted(name) + " is " + value.describe(), "give a table or a notebook");
 }
 
 Map units_of(const Rows& table) {
@@ -128,8 +128,7 @@ Values read_table_file(Call& call) {
 Values table_from(Call& call) {
   const Argument rows = call.argument(1);
   if (!rows.is_table())
-    throw Error(ErrorCode::bad_value, "`rows` is " + rows.describe(),
-                "give a list of rows, as in lab.table.from{ { N=1, mu=0.4 } }");
+    refuse("`rows` is " + rows.describe(), "give a list of rows, as in lab.table.from{ { N=1, mu=0.4 } }");
   const FromKeys keys = call.options(from_block, 2);
   Rows table;
   table.rename("the table");
@@ -141,8 +140,7 @@ Values table_from(Call& call) {
   rows.elements([&](const Argument& row) {
     table.append(entries_of(call, row, "write lab.table.from{ { N=1, mu=0.4 } }"));
   });
-  if (table.columns().empty())
-    throw Error(ErrorCode::bad_value, "`rows` holds no row", "give at least one, as in { { N=1, mu=0.4 } }");
+  if (table.columns().empty()) refuse("`rows` holds no row", "give at least one, as in { { N=1, mu=0.4 } }");
   return {object(table)};
 }
 

@@ -7,7 +7,7 @@
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/state.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/study/curve_fit.hpp"
 
 namespace asperity::lua {
@@ -111,11 +111,11 @@ class ScriptModel {
     lua_State* L = function_.state();
     const Argument::StackGuard guard(L);
     if (const auto failure = failure_of_call(function_, {std::move(q), std::move(row)}))
-      throw Error(ErrorCode::bad_value, "the function `model` failed: " + *failure, order);
+      refuse("the function `model` failed: " + *failure, order);
     const Argument result(L, -1);
     if (!result.is_number())
-      throw Error(ErrorCode::bad_value, "the function `model` returned " + result.describe(),
-                  std::string("it must return a number; ") + order);
+      refuse("the function `model` returned " + result.describe(),
+             std::string("it must return a number; ") + order);
     return result.number();
   }
 

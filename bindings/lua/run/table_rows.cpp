@@ -8,6 +8,7 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/table_operations.hpp"
 
@@ -73,14 +74,13 @@ Cell computed_cell(const Call& call, const Argument& function, const std::string
 Values with_columns(Call& call) {
   const Argument given = call.argument(1);
   if (!given.is_table())
-    throw Error(
-        ErrorCode::bad_value, "t:with was given " + given.describe(),
-        "give functions by column, as in t:with{ [\"F [N]\"]=function(row) return row.p * 1e-6 end }");
+    refuse("t:with was given " + given.describe(),
+           "give functions by column, as in t:with{ [\"F [N]\"]=function(row) return row.p * 1e-6 end }");
   std::vector<std::string> names;
   given.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text() || !value.is_function())
-      throw Error(ErrorCode::bad_value, "t:with met " + key.describe() + " = " + value.describe(),
-                  "give a function of the row under the name of its column");
+      refuse("t:with met " + key.describe() + " = " + value.describe(),
+             "give a function of the row under the name of its column");
     names.emplace_back(key.text());
   });
   std::ranges::sort(names);
@@ -116,7 +116,7 @@ Values reduced(Call& call) {
   const std::string name = call.text(1, "column");
   const std::vector<double> values = number_columns(*table, {{"column", name}}).values[0];
   if (reduction == Reduction::sum) return {std::accumulate(values.begin(), values.end(), 0.0)};
-  if (values.empty()) throw Error(ErrorCode::bad_value, "column " + quoted(name) + " has no number");
+  if (values.empty()) refuse("column " + quoted(name) + " has no number");
   const auto ends = std::ranges::minmax(values);
   return {reduction == Reduction::least ? ends.min : ends.max};
 }
@@ -127,8 +127,8 @@ Values write_table(Call& call) {
     note_columns(call);
     const bool is_book = Argument(call.L, 1).as<Notebook>() != nullptr;
     if (!is_book)
-      throw Error(ErrorCode::bad_value, "a table takes no rows",
-                  "a notebook does: lab.notebook \"events\":write{…}; t:write \"x.csv\" writes a file");
+      refuse("a table takes no rows",
+             "a notebook does: lab.notebook \"events\":write{…}; t:write \"x.csv\" writes a file");
     const std::vector<Entry> row = entries_of(call, given, "write book:write{ N=1, mu=0.4 }");
     if (!row.empty() || !call.session().dry_run) {
       auto& book = call.self<Notebook>();
@@ -140,8 +140,8 @@ Values write_table(Call& call) {
   if (!given.is_text()) entries_of(call, given, "write book:write{ N=1, mu=0.4 }");  // refuses
   const std::string name = call.text(1, "path");
   if (const std::string ending = file_extension(name); ending != "csv" && ending != "txt")
-    throw Error(ErrorCode::bad_value, "a table is written as CSV, and the file is " + quoted(name),
-                "give it a name such as \"angles.csv\"");
+    refuse("a table is written as CSV, and the file is " + quoted(name),
+           "give it a name such as \"angles.csv\"");
   if (call.session().dry_run) return {name};
   const std::string path = writable_path(call, name);
   write_atomically(path, table_of_self(call)->csv());

@@ -6,7 +6,7 @@
 #include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/histogram.hpp"
 #include "engine/statistics/sample_mean.hpp"
@@ -50,9 +50,8 @@ std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, c
     columns.push_back(table.columns()[table.column(name, "by")]);
     for (const TableColumn& other : found)
       if (other.name == columns.back().name)
-        throw Error(ErrorCode::bad_value,
-                    "`by` names the column " + quoted(other.name) + ", and the means have one of that name",
-                    "give the column of the rows another name");
+        refuse("`by` names the column " + quoted(other.name) + ", and the means have one of that name",
+               "give the column of the rows another name");
   }
   columns.insert(columns.end(), found.begin(), found.end());
   return columns;
@@ -209,8 +208,7 @@ Values histogram_of_column(Call& call) {
 
 void look_at_histogram(const Call& call) {
   if (call.argument(1).is_table() && !call.argument(1).is_unknown())
-    throw Error(ErrorCode::bad_value, "histogram takes the column first",
-                "write t:histogram(\"mu\", { bins=2 })");
+    refuse("histogram takes the column first", "write t:histogram(\"mu\", { bins=2 })");
 }
 
 const RecordInfo& histogram_type() { return histogram_record; }

@@ -7,7 +7,7 @@
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {
@@ -31,7 +31,7 @@ void call_lua(lua_State* L, const char* library, const char* name, const std::ve
   const int count = static_cast<int>(arguments.size());
   if (protect(L, 0, 1 + count, push_all) != LUA_OK || lua_pcall(L, count, results, 0) != LUA_OK) {
     stop_flag().check();
-    throw Error(ErrorCode::bad_value, error_text(L, -1));
+    refuse(error_text(L, -1));
   }
 }
 
@@ -48,19 +48,19 @@ struct ShownColumns {
 // { "Ra [um]", "angle [deg]", digits=3 }
 ShownColumns shown_columns(const Argument& given) {
   ShownColumns shown;
-  const auto refuse = [&](const Argument& key, const Argument& value) {
-    throw Error(ErrorCode::bad_value, "t:show met " + key.describe() + " = " + value.describe(),
-                "write t:show{ \"Ra [um]\", \"angle [deg]\", digits=3 }");
+  const auto refuse_entry = [&](const Argument& key, const Argument& value) {
+    refuse("t:show met " + key.describe() + " = " + value.describe(),
+           "write t:show{ \"Ra [um]\", \"angle [deg]\", digits=3 }");
   };
   if (!given.is_table()) return shown;
   given.elements([&](const Argument& name) {
-    if (!name.is_text()) refuse(name, name);
+    if (!name.is_text()) refuse_entry(name, name);
     shown.names.emplace_back(name.text());
   });
   given.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text()) return;
     const std::int64_t digits = value.is_number() ? value.integer().value_or(0) : 0;
-    if (key.text() != "digits" || digits < 1 || digits > 17) refuse(key, value);
+    if (key.text() != "digits" || digits < 1 || digits > 17) refuse_entry(key, value);
     shown.digits = static_cast<int>(digits);
   });
   return shown;
@@ -118,9 +118,8 @@ Values say(Call& call) {
     else if (value.is_boolean())
       arguments.emplace_back(value.boolean() ? "true" : "false");
     else
-      throw Error(ErrorCode::bad_value,
-                  "argument " + std::to_string(k + 2) + " of lab.say is " + value.describe(),
-                  "give a number, a string or a boolean for each directive; %% prints a percent sign");
+      refuse("argument " + std::to_string(k + 2) + " of lab.say is " + value.describe(),
+             "give a number, a string or a boolean for each directive; %% prints a percent sign");
     format += given.substr(done, one.end - done);
     done = one.end;
     if (converts) {

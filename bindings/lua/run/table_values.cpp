@@ -5,6 +5,7 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/run.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -91,20 +92,16 @@ Value row_value(const Table& table, std::int64_t k) {
 }
 
 std::vector<Entry> entries_of(const Call& call, const Argument& given, const std::string& example) {
-  if (!given.is_table())
-    throw Error(ErrorCode::bad_value, "a row is a table of columns, and was given as " + given.describe(),
-                example);
+  if (!given.is_table()) refuse("a row is a table of columns, and was given as " + given.describe(), example);
   std::vector<Entry> row;
   given.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text())
-      throw Error(ErrorCode::bad_value, "a column is named by " + key.describe(),
-                  "columns have names: { N=1, mu=0.4 }");
+      refuse("a column is named by " + key.describe(), "columns have names: { N=1, mu=0.4 }");
     if (call.session().dry_run && value.is_unknown()) return;
     const auto cell = cell_of(value);
     if (!cell)
-      throw Error(ErrorCode::bad_value,
-                  "column " + quoted(key.text().substr(0, 40)) + " is " + value.describe(),
-                  "a cell holds a number, a string or a boolean");
+      refuse("column " + quoted(key.text().substr(0, 40)) + " is " + value.describe(),
+             "a cell holds a number, a string or a boolean");
     Entry entry{std::string(key.text()), *cell};
     const TableColumn column = split_column_unit(entry.column);
     if (column.unit.empty() && entry.column.ends_with(']') && column.name == entry.column)

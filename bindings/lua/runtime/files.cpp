@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
 #include "engine/surface/io/format.hpp"
@@ -104,9 +104,8 @@ std::set<std::string> files_in(const fs::path& folder) {
   std::error_code problem;
   const fs::directory_iterator entries(folder, problem);
   if (problem)
-    throw Error(ErrorCode::bad_file,
-                "the folder " + file_name(folder.string()) + " cannot be read: " + problem.message(),
-                "check the path and its spelling");
+    refuse_bad_file("the folder " + file_name(folder.string()) + " cannot be read: " + problem.message(),
+                    "check the path and its spelling");
   for (const fs::directory_entry& entry : entries) {
     std::error_code ignored;
     if (entry.is_regular_file(ignored)) names.insert(entry.path().filename().string());
@@ -119,8 +118,8 @@ Values list_files(Call& call) {
   const fs::path pattern(given);
   const std::string wanted = pattern.filename().string(), folder = pattern.parent_path().string();
   if (wanted.empty() || given.find('\0') != std::string::npos || has_wildcard(folder))
-    throw Error(ErrorCode::bad_value, "`pattern` is \"" + plain_text(given) + "\"",
-                "give one folder and a pattern of names in it, such as \"scans/*.x3p\"");
+    refuse("`pattern` is \"" + plain_text(given) + "\"",
+           "give one folder and a pattern of names in it, such as \"scans/*.x3p\"");
   std::set<std::string> names;
   std::error_code ignored;
   const fs::path place = folder.empty() ? fs::path(".") : fs::path(folder);

@@ -31,8 +31,8 @@ void refuse_pipe(const std::string& name, const std::string& place) {
   std::error_code none;
   const auto status = std::filesystem::status(place, none);
   if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status))
-    throw Error(ErrorCode::bad_file, quoted(name) + " is no regular file, but a pipe or a socket",
-                "write its output into a file first");
+    refuse_bad_file(quoted(name) + " is no regular file, but a pipe or a socket",
+                    "write its output into a file first");
 }
 
 // For `require`, `dofile` and `loadfile`; none for an unreadable file, which Lua reports. A case records a

@@ -79,9 +79,8 @@ Values sweep(Call& call) {
                     visited = std::vector<double>()](Call& step) mutable -> std::optional<Values> {
                      if (k >= requests.size()) return std::nullopt;
                      if (pair->closed())
-                       throw Error(ErrorCode::bad_state,
-                                   "the contact of the sweep was closed inside its loop",
-                                   "close it after the loop");
+                       refuse_state("the contact of the sweep was closed inside its loop",
+                                    "close it after the loop");
                      PressRequest request = requests[k];
                      if (k == 0 && request.by_load() && request.value < 0)
                        visited.push_back(0);  // pull: zero load first

@@ -11,6 +11,7 @@
 #include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/contact/scene/elastic_model.hpp"
 #include "engine/contact/scene/known_effects.hpp"
+#include "engine/core/require.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
@@ -219,9 +220,8 @@ void read_elasticity(const Argument& value, const OptionInfo&, SceneKeys& keys, 
     } else if (value.is_text()) {
       const ElasticModel& model = require_elastic_model(value.text());
       if (needs_options(model))
-        throw Error(ErrorCode::bad_value,
-                    "`effects.elasticity` is \"" + std::string(model.name) + "\" without its options",
-                    "give " + written(model, false));
+        refuse("`effects.elasticity` is \"" + std::string(model.name) + "\" without its options",
+               "give " + written(model, false));
       keys.elasticity = Elasticity(model, model.defaults);
     } else {
       problems.push_back("`effects.elasticity` is " + value.describe() + "; give " +
@@ -374,7 +374,7 @@ void look_at_scene(const Call& call) {
   SceneKeys keys = call.options(scene_block);
   Problems problems;
   require_boundary(keys, problems);
-  if (!problems.empty()) throw Error(ErrorCode::bad_value, call.function_name() + ": " + problems.front());
+  if (!problems.empty()) refuse(call.function_name() + ": " + problems.front());
   const auto body = [&](const char* key) { return with_key(table, key, known_body); };
   const auto lower = body("lower"), upper = body("upper");
   const bool flat = keys.upper && std::holds_alternative<Material>(*keys.upper);

@@ -85,8 +85,7 @@ Values on(Call& call) {
       [run](Call& turn) -> std::optional<Values> {
         if (run->finished()) return std::nullopt;
         if (run->pair().closed())
-          throw Error(ErrorCode::bad_state, "the contact of the protocol was closed inside its loop",
-                      "close it after the loop");
+          refuse_state("the contact of the protocol was closed inside its loop", "close it after the loop");
         const std::size_t k = run->next();
         const std::optional<asperity::State> state = run->step(turn.session().monitor());
         Values values{event_of(run->protocol(), k), state ? object(*state) : Value()};

@@ -4,7 +4,7 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -37,8 +37,8 @@ class EventReader {
  public:
   std::optional<Protocol> read(const Argument& list, const std::string& caller) {
     if (!list.is_table())
-      throw Error(ErrorCode::bad_value, caller + " takes a list of events, and was given " + list.describe(),
-                  "write " + caller + "{ { press={ pressure=\"10 MPa\" } }, { release=true } }");
+      refuse(caller + " takes a list of events, and was given " + list.describe(),
+             "write " + caller + "{ { press={ pressure=\"10 MPa\" } }, { release=true } }");
     look_for_stray_keys(list);
     for (std::int64_t k = 1; k <= list.length(); ++k) {
       event_ = "event " + std::to_string(k) + ": ";
@@ -58,13 +58,13 @@ class EventReader {
 
   void fail_if_any(const std::string& caller) const {
     if (problems_.empty()) return;
-    if (problems_.size() == 1) throw Error(ErrorCode::bad_value, caller + ": " + problems_.front());
+    if (problems_.size() == 1) refuse(caller + ": " + problems_.front());
     constexpr std::size_t enough = 20;
     std::string sentence = caller + ": " + std::to_string(problems_.size()) + " problems";
     for (std::size_t k = 0; k < std::min(enough, problems_.size()); ++k) sentence += "\n  " + problems_[k];
     if (problems_.size() > enough)
       sentence += "\n  and " + std::to_string(problems_.size() - enough) + " more";
-    throw Error(ErrorCode::bad_value, sentence);
+    refuse(sentence);
   }
 
   void look_for_stray_keys(const Argument& list) {

@@ -7,7 +7,7 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
 #include "engine/recording/press_recording.hpp"
@@ -116,10 +116,9 @@ DetectionOptions detection_options(const ReadProtocolKeys& keys, const PressReco
   const auto value = [&](const char* key, const std::optional<Quantity>& given) -> std::optional<double> {
     if (!given) return {};
     if (given->dimension != wanted && given->dimension != dimension::number)
-      throw Error(ErrorCode::bad_value,
-                  quoted(key) + " is " + asperity::describe(given->dimension) + ", and \"" + recording.name +
-                      "\" records " + asperity::describe(wanted),
-                  "give it in the unit of the recording");
+      refuse(quoted(key) + " is " + asperity::describe(given->dimension) + ", and \"" + recording.name +
+                 "\" records " + asperity::describe(wanted),
+             "give it in the unit of the recording");
     return given->value;
   };
   options.noise = value("noise", keys.noise);

@@ -15,6 +15,7 @@
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
@@ -34,8 +35,8 @@ Cell field_at(lua_State* L, int index, const std::string& field) {
   if (value.is_nil()) return {};
   const auto cell = cell_of(value);
   if (!cell)
-    throw Error(ErrorCode::bad_value, "the field " + quoted(field) + " is " + value.describe(),
-                "a column holds numbers, strings or booleans");
+    refuse("the field " + quoted(field) + " is " + value.describe(),
+           "a column holds numbers, strings or booleans");
   return *cell;
 }
 
@@ -55,7 +56,7 @@ void push_roughness(lua_State* L, const Value& value, std::optional<double> sect
   };
   if (protect(L, 0, 1, action) == LUA_OK) return;
   stop_flag().check();
-  throw Error(ErrorCode::bad_value, error_text(L, -1));
+  refuse(error_text(L, -1));
 }
 
 Dimension declared_dimension(const std::string& owner, const std::string& field, bool in_sections) {
@@ -86,8 +87,7 @@ StateTable columns_given(const Call& call) {
       .name = "columns", .type = "string[]", .default_text = "", .range_text = "", .sentence = ""};
   read_texts(call.argument(1), info, names, problems);
   if (!problems.empty())
-    throw Error(ErrorCode::bad_value, joined(problems, "; "),
-                "write it such as :table{ \"pressure [MPa]\", \"area_fraction [%]\" }");
+    refuse(joined(problems, "; "), "write it such as :table{ \"pressure [MPa]\", \"area_fraction [%]\" }");
   StateTable::find_mistakes(names, {}, problems);
   if (!problems.empty()) throw Error(ErrorCode::unknown_name, joined(problems, "; "));
   return {names, {}};
@@ -147,8 +147,7 @@ void StateTable::add(Call& call, const Turn& turn) {
   if (needs("upper")) roughness_of("upper", turn.pair->upper());
   if (needs("trace")) {
     if (traces_.stylus == nullptr)
-      throw Error(ErrorCode::bad_value, "a column of `trace` needs a stylus",
-                  "give trace={ stylus=stylus, count=5, seed=1 }");
+      refuse("a column of `trace` needs a stylus", "give trace={ stylus=stylus, count=5, seed=1 }");
     const StylusScan scan =
         traces_.stylus->scan(turn.pair->lower(), traces_.count, traces_.seed, call.session().monitor());
     for (const Profile& trace : scan.traces) {

@@ -10,7 +10,7 @@
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/contact/scene/press_request.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -167,8 +167,8 @@ Values spread_press(Call& call) {
   const SpreadPress keys = call.options(spread_press_block);
   const SlabSurface& surface = contact.problem.surface;
   if (keys.indentation && surface.peak == surface.valley)
-    throw Error(ErrorCode::bad_value, "`indentation` is a fraction of a peak-to-valley that is zero",
-                "give `pressure`, `load` or `approach`");
+    refuse("`indentation` is a fraction of a peak-to-valley that is zero",
+           "give `pressure`, `load` or `approach`");
   SpreadState state;
   state.problem = contact.problem;
   if (keys.approach || keys.indentation)

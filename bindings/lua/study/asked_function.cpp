@@ -10,7 +10,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/study/study.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/statistics/sample_mean.hpp"
 
 namespace asperity::lua {
@@ -18,8 +18,7 @@ namespace asperity::lua {
 namespace {
 
 [[noreturn]] void no_number(const Argument& answer, const Knobs& knobs) {
-  throw Error(ErrorCode::bad_value, "`ask` returned " + answer.describe() + " for " + lua_source(knobs),
-              "return one number");
+  refuse("`ask` returned " + answer.describe() + " for " + lua_source(knobs), "return one number");
 }
 
 // On failure adds a problem and returns nothing.
@@ -198,7 +197,7 @@ void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs,
 void AskedFunction::call(const Knobs& knobs) const {
   push_with_knobs(L_, ask_, knobs, "the table of `ask`");
   if (const auto failure = failure_of_call(L_, 1, 1))
-    throw Error(ErrorCode::bad_value, "`ask` failed for " + lua_source(knobs) + ": " + *failure);
+    refuse("`ask` failed for " + lua_source(knobs) + ": " + *failure);
 }
 
 AskedFunction::Answer AskedFunction::operator()(const Knobs& knobs, Monitor& monitor) const {
@@ -251,11 +250,9 @@ std::vector<AskedFunction::Answer> AskedRuns::operator()(const std::vector<Knobs
   for (std::size_t k = 0; k < answers.size(); ++k) {
     const BatchedAnswer& answer = answers[k];
     if (!answer.failure.empty())
-      throw Error(ErrorCode::bad_value,
-                  "`ask` failed for " + lua_source(runs[k]) + ": " + without_traceback(answer.failure));
+      refuse("`ask` failed for " + lua_source(runs[k]) + ": " + without_traceback(answer.failure));
     if (!answer.number)
-      throw Error(ErrorCode::bad_value, "`ask` returned " + answer.other + " for " + lua_source(runs[k]),
-                  "return one number");
+      refuse("`ask` returned " + answer.other + " for " + lua_source(runs[k]), "return one number");
     found.push_back({*answer.number, answer.seconds});
   }
   return found;

@@ -16,6 +16,7 @@
 #include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/study/calibrate.hpp"
 
 namespace asperity::lua {
@@ -287,8 +288,7 @@ class CalibratedFunction {
 
 Values run_calibration(Call& call) {
   const CalibrateKeys keys = call.options(calibrate_block);
-  if (keys.data == nullptr)
-    throw Error(ErrorCode::bad_state, "`data` has no rows", "give a table of measured rows");
+  if (keys.data == nullptr) refuse_state("`data` has no rows", "give a table of measured rows");
   CalibrationInput input = calibration_input(*keys.data, keys);
   Session& session = call.session();
   return with_key(call.argument(1), "model", [&](const Argument& function) -> Values {
@@ -296,9 +296,8 @@ Values run_calibration(Call& call) {
     check_calibration(input.rows, keys.parameters, keys.options);
     if (std::ranges::find(keys.parameters, keys.replicate, &CalibrationParameter::name) !=
         keys.parameters.end())
-      throw Error(ErrorCode::bad_value,
-                  "`replicate` names " + quoted(keys.replicate) + ", which is a parameter, too",
-                  "give one of them another name");
+      refuse("`replicate` names " + quoted(keys.replicate) + ", which is a parameter, too",
+             "give one of them another name");
     input.rows.replicates = std::max<std::size_t>(keys.faces.size(), 1);
     CalibratedFunction model(call, function, input.used, keys, input.numbers);
     CalibrationOptions options = keys.options;

@@ -9,6 +9,7 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/study.hpp"
+#include "engine/core/require.hpp"
 #include "engine/study/work_precision.hpp"
 
 namespace asperity::lua {
@@ -104,8 +105,8 @@ StudyAnswer read_answer(lua_State* L, const Knobs& knobs) {
   const Argument value(L, -2), message(L, -1);
   if (value.is_number()) return {value.number(), ""};
   if (value.is_nil()) return {{}, message.is_text() ? std::string(message.text()) : std::string()};
-  throw Error(ErrorCode::bad_value, "`ask` returned " + value.describe() + " for " + lua_source(knobs),
-              "return one number, or nil where the setting failed");
+  refuse("`ask` returned " + value.describe() + " for " + lua_source(knobs),
+         "return one number, or nil where the setting failed");
 }
 
 class LuaWork final : public StudyWork {
@@ -144,7 +145,7 @@ Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
     work.prepare(knobs);
     const int bottom = lua_gettop(call.L) - 2;
     if (const auto failure = failure_of_call(call.L, 1, 2))
-      throw Error(ErrorCode::bad_value, keys.ways.front().name + " " + lua_source(knobs) + ": " + *failure);
+      refuse(keys.ways.front().name + " " + lua_source(knobs) + ": " + *failure);
     if (!Argument(call.L, -2).is_unknown()) read_answer(call.L, knobs);
     lua_settop(call.L, bottom);
   }

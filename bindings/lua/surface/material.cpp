@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/surface/surface.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::lua {
 
@@ -19,8 +20,8 @@ Values make_material(Call& call) {
   const Argument first = call.argument(1);
   if (first.is_text()) return {object(named_material(first.text()))};
   if (first.is_nil())
-    throw Error(ErrorCode::bad_value, "lab.material was given nothing (nil)",
-                "give a name, such as lab.material \"Al-2011\", or a table of properties");
+    refuse("lab.material was given nothing (nil)",
+           "give a name, such as lab.material \"Al-2011\", or a table of properties");
   Material material = call.options(material_block);
   if (material.name.empty()) material.name = "unnamed";
   check(material);

@@ -28,8 +28,7 @@ Values positions(Call& call) {
 // About the centre of a closed outline.
 Values outline(Call& call) {
   const Profile& p = call.self<Profile>();
-  if (!p.closed())
-    throw Error(ErrorCode::bad_state, "the profile is not a closed outline", "grain_profile makes one");
+  if (!p.closed()) refuse_state("the profile is not a closed outline", "grain_profile makes one");
   const auto h = p.measured_heights();
   Array<double> x(h.size()), y(h.size());
   for (std::size_t k = 0; k < h.size(); ++k) {

@@ -4,6 +4,7 @@
 #include "bindings/lua/surface/surface.hpp"
 #include "bindings/lua/surface/surface_keys.hpp"
 #include "engine/core/files/source_file.hpp"
+#include "engine/core/require.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/grain_profile.hpp"
 #include "engine/surface/generators/sphere.hpp"
@@ -217,12 +218,12 @@ class HeldFunction {
   Surface surface(int nx, int ny, Monitor& monitor) const {
     const Session::Running* const now = Session::Running::innermost;
     if (now == nullptr || now->session.held_functions != held_)
-      throw Error(ErrorCode::bad_value, "only its own script can call a function");
+      refuse("only its own script can call a function");
     const Argument::StackGuard guard(now->L);
     lua_rawgeti(now->L, LUA_REGISTRYINDEX, place_);
     const Callback height{Argument(now->L, -1)};
     if (height({x_, y_}, "height") != height_)
-      throw Error(ErrorCode::bad_value, "the function `height` gave another height at the same place");
+      refuse("the function `height` gave another height at the same place");
     const Grid grid = make_grid(nx, ny, grid_.size_x, grid_.size_y);
     return {grid, heights_of(height, grid, monitor)};
   }
@@ -277,17 +278,15 @@ Values from_table_body(Call& call) {
       stop_flag().check();
       rows.element(j + 1, [&](const Argument& row) {
         if (!row.is_table() || row.length() != grid.nx)
-          throw Error(ErrorCode::bad_value,
-                      "row " + std::to_string(j + 1) + " of `heights` is " +
-                          (row.is_table() ? "a table of " + std::to_string(row.length()) : row.describe()),
-                      "every row must have " + std::to_string(grid.nx) + " heights, as the first has");
+          refuse("row " + std::to_string(j + 1) + " of `heights` is " +
+                     (row.is_table() ? "a table of " + std::to_string(row.length()) : row.describe()),
+                 "every row must have " + std::to_string(grid.nx) + " heights, as the first has");
         for (int i = 0; i < grid.nx; ++i)
           row.element(i + 1, [&](const Argument& height) {
             if (!height.is_number())
-              throw Error(ErrorCode::bad_value,
-                          "heights[" + std::to_string(j + 1) + "][" + std::to_string(i + 1) + "] is " +
-                              height.describe(),
-                          "give a number of metres");
+              refuse("heights[" + std::to_string(j + 1) + "][" + std::to_string(i + 1) + "] is " +
+                         height.describe(),
+                     "give a number of metres");
             heights(i, j) = height.number();
           });
       });

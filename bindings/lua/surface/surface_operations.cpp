@@ -3,6 +3,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/surface.hpp"
+#include "engine/core/require.hpp"
 #include "engine/surface/operations/operations.hpp"
 
 namespace asperity::lua {
@@ -43,9 +44,8 @@ Values of_two_surfaces(const Call& call, Surface (*combine)(const Surface&, cons
   const auto* a = call.argument(1).as<Surface>();
   const auto* b = call.argument(2).as<Surface>();
   if (a == nullptr || b == nullptr)
-    throw Error(ErrorCode::bad_value,
-                "one side is " + call.argument(a == nullptr ? 1 : 2).describe() + ", the other a surface",
-                "give two surfaces of equal cells and size; `levelled{ degree=0 }` removes the mean height");
+    refuse("one side is " + call.argument(a == nullptr ? 1 : 2).describe() + ", the other a surface",
+           "give two surfaces of equal cells and size; `levelled{ degree=0 }` removes the mean height");
   return {object(combine(*a, *b))};
 }
 // Factors are plain numbers: height times length is an area.
@@ -54,17 +54,15 @@ Values multiple_of(Call& call) {
   const Argument factor = call.argument(number_first ? 1 : 2);
   const auto* surface = call.argument(number_first ? 2 : 1).as<Surface>();
   if (surface == nullptr || !factor.is_number())
-    throw Error(ErrorCode::bad_value,
-                "the sides are " + call.argument(1).describe() + " and " + call.argument(2).describe(),
-                "one must be a surface, the other a plain number");
+    refuse("the sides are " + call.argument(1).describe() + " and " + call.argument(2).describe(),
+           "one must be a surface, the other a plain number");
   return {object(times(*surface, factor.number()))};
 }
 Values part_of(Call& call) {
   const auto* surface = call.argument(1).as<Surface>();
   if (surface == nullptr || !call.argument(2).is_number())
-    throw Error(ErrorCode::bad_value,
-                "the sides are " + call.argument(1).describe() + " and " + call.argument(2).describe(),
-                "a surface can be divided by a plain number");
+    refuse("the sides are " + call.argument(1).describe() + " and " + call.argument(2).describe(),
+           "a surface can be divided by a plain number");
   return {object(over(*surface, call.argument(2).number()))};
 }
 

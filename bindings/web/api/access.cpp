@@ -19,7 +19,7 @@ std::string new_token() {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
   std::array<unsigned char, 43> random{};
   if (::getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size()))
-    throw Error(ErrorCode::bad_state, "the system gives no random numbers for a token");
+    refuse_state("the system gives no random numbers for a token");
   std::string token;
   for (const unsigned char byte : random) token += digits[byte & 63];
   return token;

@@ -9,9 +9,8 @@
 
 #include "bindings/web/api/script_answers.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::web {
 
@@ -54,19 +53,18 @@ HttpResponse problem_answer(int status, const std::string& message, const std::s
 
 Json body_of(const HttpRequest& request) {
   Json body = Json::parse(request.body, "the body of the request");
-  if (!body.is_object()) throw Error(ErrorCode::bad_value, "the body of the request is no object");
+  if (!body.is_object()) refuse("the body of the request is no object");
   return body;
 }
 
 std::string text_member(const Json& body, const std::string& key, std::size_t longest) {
   const Json* found = body.find(key);
-  if (found == nullptr) throw Error(ErrorCode::bad_value, "the request has no " + asperity::quoted(key));
-  if (!found->is_string()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no text");
+  if (found == nullptr) refuse("the request has no " + asperity::quoted(key));
+  if (!found->is_string()) refuse(asperity::quoted(key) + " is no text");
   const std::string& text = found->string();
   if (text.size() > longest)
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(key) + " has " + std::to_string(text.size()) + " bytes",
-                "give at most " + std::to_string(longest));
+    refuse(asperity::quoted(key) + " has " + std::to_string(text.size()) + " bytes",
+           "give at most " + std::to_string(longest));
   return text;
 }
 
@@ -74,8 +72,7 @@ std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t
   if (body[key].is_null()) return otherwise;
   const double number = body[key].number();
   if (!(number >= 0 && number <= 1e15) || number != std::floor(number))
-    throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is " + format_short(number),
-                "give a whole number from 0 on");
+    refuse(asperity::quoted(key) + " is " + format_short(number), "give a whole number from 0 on");
   return static_cast<std::int64_t>(number);
 }
 
@@ -83,19 +80,17 @@ GivenKnobs knobs_member(const Json& body, const std::string& key) {
   constexpr std::size_t most = 100, longest = 100;
   const Json& given = body[key];
   if (given.is_null()) return {};
-  if (!given.is_object()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no object");
+  if (!given.is_object()) refuse(asperity::quoted(key) + " is no object");
   const Json::Members& members = given.members();
   if (members.size() > most)
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(key) + " has " + std::to_string(members.size()) + " members",
-                "give at most " + std::to_string(most));
+    refuse(asperity::quoted(key) + " has " + std::to_string(members.size()) + " members",
+           "give at most " + std::to_string(most));
   GivenKnobs knobs;
   for (const auto& [name, value] : members) {
     if (!value.is_string())
-      throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is no text",
-                  "give a number with its unit in quotes, such as \"50 MPa\"");
-    if (value.string().size() > longest)
-      throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is too long");
+      refuse("the value of " + asperity::quoted(name) + " is no text",
+             "give a number with its unit in quotes, such as \"50 MPa\"");
+    if (value.string().size() > longest) refuse("the value of " + asperity::quoted(name) + " is too long");
     give_knob(knobs, name, value.string());
   }
   return knobs;
@@ -161,7 +156,7 @@ Json check_script(const std::string& script, const std::filesystem::path& scratc
 
   Json answer = check_answer(done.events);
   if (answer.find("marks") != nullptr) return answer;
-  if (done.status == 2) throw Error(ErrorCode::bad_state, "the script could not be checked: " + done.error);
+  if (done.status == 2) refuse_state("the script could not be checked: " + done.error);
   return answer.set(
       "marks", Json::List{note(done.given_up ? "the check was ended after 1 s, because others wait for theirs"
                                              : "the check did not come to an end")});

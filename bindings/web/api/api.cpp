@@ -19,8 +19,7 @@
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::web {
 
@@ -173,20 +172,18 @@ HttpResponse PageFiles::answer(const HttpRequest& request) const {
 
 void RoomBoard::predict(std::size_t person, const std::string& lesson, const Json& guesses,
                         const std::string& why) {
-  if (!guesses.is_object())
-    throw Error(ErrorCode::bad_value, "`guesses` is no object", "give numbers or choices by name");
+  if (!guesses.is_object()) refuse("`guesses` is no object", "give numbers or choices by name");
   if (guesses.members().size() > most_guesses)
-    throw Error(ErrorCode::bad_value, std::to_string(guesses.members().size()) + " guesses are given",
-                "give at most " + std::to_string(most_guesses));
+    refuse(std::to_string(guesses.members().size()) + " guesses are given",
+           "give at most " + std::to_string(most_guesses));
   Prediction given{.guesses = {}, .why = why};
   for (const auto& [name, value] : guesses.members()) {
     const std::size_t longest = std::max(name.size(), value.is_string() ? value.string().size() : 0);
     if (longest > longest_name)
-      throw Error(ErrorCode::bad_value, "a name or a choice has " + std::to_string(longest) + " bytes",
-                  "give at most " + std::to_string(longest_name));
+      refuse("a name or a choice has " + std::to_string(longest) + " bytes",
+             "give at most " + std::to_string(longest_name));
     if (!value.is_string() && !(value.is_number() && std::isfinite(value.number())))
-      throw Error(ErrorCode::bad_value, "the guess `" + name + "` is no finite number and no text",
-                  "give a number or a choice");
+      refuse("the guess `" + name + "` is no finite number and no text", "give a number or a choice");
     given.guesses[name] = value;
   }
   const std::lock_guard lock(mutex_);
@@ -196,8 +193,7 @@ void RoomBoard::predict(std::size_t person, const std::string& lesson, const Jso
     return;
   }
   if (!predictions.contains(lesson) && predictions.size() >= most_lessons)
-    throw Error(ErrorCode::bad_value, "there are predictions of " + std::to_string(most_lessons) + " lessons",
-                "take some back");
+    refuse("there are predictions of " + std::to_string(most_lessons) + " lessons", "take some back");
   predictions[lesson] = std::move(given);
 }
 

@@ -50,8 +50,8 @@ LessonNames lesson_names(const fs::path& folder) {
 std::string text_in(const fs::path& folder, const std::string& name) {
   auto text = read_plain_file(folder, name, most_lesson_bytes);
   if (!text)
-    throw Error(ErrorCode::bad_file, asperity::quoted(name) + " is a link, or cannot be read, or has over " +
-                                         std::to_string(most_lesson_bytes) + " bytes");
+    refuse_bad_file(asperity::quoted(name) + " is a link, or cannot be read, or has over " +
+                    std::to_string(most_lesson_bytes) + " bytes");
   return *std::move(text);
 }
 

@@ -74,9 +74,9 @@ GnuplotResult drawn_by_server(std::string_view script, std::span<const GnuplotDa
   const bool sent = send_frame(drawing_descriptor, texts);
   const auto answer = sent ? receive_frame(drawing_descriptor, most_picture_bytes) : std::nullopt;
   if (!answer || answer->size() != 3)
-    throw Error(ErrorCode::bad_state, "the picture was not drawn: the server that draws it gave no answer",
-                "a picture may have at most 64 MiB of data");
-  if (!(*answer)[0].empty()) throw Error(ErrorCode::bad_state, (*answer)[0]);
+    refuse_state("the picture was not drawn: the server that draws it gave no answer",
+                 "a picture may have at most 64 MiB of data");
+  if (!(*answer)[0].empty()) refuse_state((*answer)[0]);
   return {(*answer)[1], (*answer)[2]};
 }
 
@@ -106,9 +106,8 @@ int confined_main() {
     const std::vector<std::string> made = confine(request.confinement, missing);
     for (const std::string& barrier : request.barriers)
       if (std::ranges::find(made, barrier) == made.end())
-        throw Error(ErrorCode::bad_state,
-                    "the run was not begun: the barrier " + asperity::quoted(barrier) + " failed",
-                    joined(missing, ", "));
+        refuse_state("the run was not begun: the barrier " + asperity::quoted(barrier) + " failed",
+                     joined(missing, ", "));
     switch (request.work) {
       case Work::probe:
         return print_probe(made, missing);

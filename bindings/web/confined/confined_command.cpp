@@ -20,12 +20,11 @@
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -65,12 +64,9 @@ fs::path canonical(const std::string& folder, const char* option) {
   std::error_code problem;
   const fs::path real = fs::canonical(folder.empty() ? "." : folder, problem);
   if (problem || !fs::is_directory(real, problem))
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(option) + " names " + asperity::quoted(folder) + ", which is no folder",
-                "give a folder that is there");
-  if (real == "/")
-    throw Error(ErrorCode::bad_value, asperity::quoted(option) + " names the whole tree of files",
-                "give a folder in it");
+    refuse(asperity::quoted(option) + " names " + asperity::quoted(folder) + ", which is no folder",
+           "give a folder that is there");
+  if (real == "/") refuse(asperity::quoted(option) + " names the whole tree of files", "give a folder in it");
   say_where_a_link_leads(folder, real);
   return real;
 }
@@ -131,9 +127,8 @@ std::vector<std::string> open_ways(const BarrierReport& report, const std::strin
   for (std::string name; std::getline(names, name, ',');) {
     if (name.empty()) continue;
     if (std::ranges::find(known, name) == known.end())
-      throw Error(ErrorCode::bad_value,
-                  "`--without-barriers` names " + asperity::quoted(name) + did_you_mean(name, known),
-                  "the barriers are " + joined(known, " and "));
+      refuse("`--without-barriers` names " + asperity::quoted(name) + did_you_mean(name, known),
+             "the barriers are " + joined(known, " and "));
     allowed.push_back(name);
   }
   std::vector<std::string> open, refused, reasons;
@@ -290,12 +285,10 @@ class Undertaking {
 
  private:
   void check_options() const {
-    if (run_.trust)
-      throw Error(ErrorCode::bad_value, "`--trust` and `--confined` exclude each other",
-                  "leave one of them out");
+    if (run_.trust) refuse("`--trust` and `--confined` exclude each other", "leave one of them out");
     if (cli::launched_rank(run_.shard.has_value()))
-      throw Error(ErrorCode::bad_value, "a confined run was started as one of the ranks of mpirun",
-                  "start it alone, or share the cases of ensembles by `--shard` and `--store`");
+      refuse("a confined run was started as one of the ranks of mpirun",
+             "start it alone, or share the cases of ensembles by `--shard` and `--store`");
   }
 
   // A foreign record grants no access to files.
@@ -325,8 +318,8 @@ class Undertaking {
       if (std::ranges::find(read_, folder) == read_.end())
         missing += (missing.empty() ? "" : " ") + ("--read " + folder);
     if (missing.empty()) return;
-    throw Error(ErrorCode::bad_value, "the run was recorded with `" + missing + "`",
-                std::string("add it to ") + purpose_ + " the run so");
+    refuse("the run was recorded with `" + missing + "`",
+           std::string("add it to ") + purpose_ + " the run so");
   }
 
   // Made and locked here: this process outlives the child and removes files beyond the limits.

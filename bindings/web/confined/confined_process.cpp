@@ -36,7 +36,7 @@ struct Ends {
 };
 
 [[noreturn]] void throw_not_started(int reason) {
-  throw Error(ErrorCode::bad_state, std::string("a run cannot be started: ") + std::strerror(reason));
+  refuse_state(std::string("a run cannot be started: ") + std::strerror(reason));
 }
 
 // Above 16: dup2 in the child cannot overwrite it.
@@ -133,10 +133,9 @@ GnuplotResult draw(const std::vector<std::string>& request, const std::vector<st
                                      [&] { return given_up.load(); });
   std::string picture = read_plain_file(folder.path(), "picture", most_picture_bytes).value_or("");
   if (done.status != 0 || picture.empty())
-    throw Error(ErrorCode::bad_state,
-                done.status == 127
-                    ? "charts and pictures are drawn by gnuplot, which is not installed"
-                    : "gnuplot drew no picture: " + done.error + (done.late ? "it took too long" : ""));
+    refuse_state(done.status == 127
+                     ? "charts and pictures are drawn by gnuplot, which is not installed"
+                     : "gnuplot drew no picture: " + done.error + (done.late ? "it took too long" : ""));
   return {std::move(picture), done.error};
 }
 

@@ -80,7 +80,7 @@ struct Reader {
   template <class T>
   void operator()(const char* name, T& value) {
     const Json* const found = json.is_object() ? json.find(name) : nullptr;
-    if (found == nullptr) throw Error(ErrorCode::bad_file, "the request has no " + asperity::quoted(name));
+    if (found == nullptr) refuse_bad_file("the request has no " + asperity::quoted(name));
     read(*found, value);
   }
   // Keeps the value if the member is missing.
@@ -95,8 +95,7 @@ struct Reader {
   static void read(const Json& from, bool& value) { value = from.boolean(); }
   static void read(const Json& from, Work& value) {
     const auto known = std::ranges::find(works, from.string());
-    if (known == works.end())
-      throw Error(ErrorCode::bad_file, "the request is to " + asperity::quoted(from.string()));
+    if (known == works.end()) refuse_bad_file("the request is to " + asperity::quoted(from.string()));
     value = static_cast<Work>(known - works.begin());
   }
   // From the text: a double cannot hold every integer.
@@ -206,7 +205,7 @@ std::string bytes_of(std::string_view characters) {
       continue;
     }
     if ((lead != 0xC2 && lead != 0xC3) || ++k == characters.size())
-      throw Error(ErrorCode::bad_file, "a text of the command holds a character that is no byte");
+      refuse_bad_file("a text of the command holds a character that is no byte");
     bytes += static_cast<char>((lead & 0x03) << 6 | (static_cast<unsigned char>(characters[k]) & 0x3F));
   }
   return bytes;

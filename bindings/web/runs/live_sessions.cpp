@@ -229,7 +229,7 @@ std::shared_ptr<LiveSession> LiveSessions::begin(std::size_t owner, const std::s
                                                  const RunRequest& request) {
   std::vector<std::shared_ptr<LiveSession>> gone;  // destroyed without the lock
   const std::lock_guard lock(mutex_);
-  if (closed_) throw Error(ErrorCode::bad_state, "the server is being stopped");
+  if (closed_) refuse_state("the server is being stopped");
   take_out([](const LiveSession& session) { return session.over(); }, "", gone);
   take_out([&](const LiveSession& session) { return session.owner == owner && session.tab == tab; },
            "another script took its place", gone);
@@ -242,8 +242,7 @@ std::shared_ptr<LiveSession> LiveSessions::begin(std::size_t owner, const std::s
     const auto longest = std::ranges::min_element(there, {}, [](const LiveSession* session) {
       return session->busy() ? LiveSession::Clock::time_point::max() : session->last_used();
     });
-    if ((*longest)->busy())
-      throw Error(ErrorCode::bad_state, "too many scripts follow their knobs", "try again");
+    if ((*longest)->busy()) refuse_state("too many scripts follow their knobs", "try again");
     take_out([&](const LiveSession& session) { return &session == *longest; }, "it made room for another one",
              gone);
   };
@@ -267,8 +266,7 @@ std::int64_t LiveSessions::move(LiveSession& session, const GivenKnobs& knobs, c
   std::shared_ptr<void> share;
   if (!session.busy()) {
     share = turns_.take(session.owner, turn_patience);
-    if (share == nullptr)
-      throw Error(ErrorCode::bad_state, "the server is busy with the knobs of others", "try again");
+    if (share == nullptr) refuse_state("the server is busy with the knobs of others", "try again");
   }
   return session.move(knobs, view, map, std::move(share));
 }

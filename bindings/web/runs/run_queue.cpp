@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity::web {
 
@@ -28,20 +27,17 @@ RunQueue::~RunQueue() { close(); }
 
 std::shared_ptr<PageRun> RunQueue::add(std::size_t owner, RunRequest request) {
   const std::lock_guard lock(mutex_);
-  const auto refuse = [](const std::string& sentence, const std::string& hint) {
-    throw Error(ErrorCode::bad_state, sentence, hint);
-  };
-  if (over_) refuse("the server is being stopped", "");
+  if (over_) refuse_state("the server is being stopped");
   auto& own = waiting_[owner];
   if (own.size() >= setup_.most_waiting_of_one || waiting_in_all_ >= setup_.most_waiting)
-    refuse("too many runs wait: " +
-               std::to_string(own.size() >= setup_.most_waiting_of_one ? own.size() : waiting_in_all_),
-           "wait until one has ended, or stop one");
+    refuse_state("too many runs wait: " +
+                     std::to_string(own.size() >= setup_.most_waiting_of_one ? own.size() : waiting_in_all_),
+                 "wait until one has ended, or stop one");
   const std::int64_t kept = kept_by(owner);
   if (kept > setup_.most_bytes_of_one || runs_.size() >= setup_.most_kept)
-    refuse("the runs of this session take " + format_short(static_cast<double>(kept) / 0x1p20) + " MiB in " +
-               std::to_string(runs_.size()) + " folders, their limit",
-           "start `asperity serve` again: the records stay in " + setup_.folder.string());
+    refuse_state("the runs of this session take " + format_short(static_cast<double>(kept) / 0x1p20) +
+                     " MiB in " + std::to_string(runs_.size()) + " folders, their limit",
+                 "start `asperity serve` again: the records stay in " + setup_.folder.string());
   const std::string id = std::to_string(++last_id_);
   auto run = std::make_shared<PageRun>(id, owner, std::move(request), setup_.folder / id);
   runs_.emplace(id, run);

@@ -256,8 +256,7 @@ void limit(int what, std::int64_t most, const char* of) {
   const rlim_t value = std::min(static_cast<rlim_t>(most), now.rlim_max);
   const rlimit wanted{value, value};
   if (::setrlimit(static_cast<__rlimit_resource_t>(what), &wanted) != 0)
-    throw Error(ErrorCode::bad_state,
-                std::string("the limit of ") + of + " cannot be set: " + std::strerror(errno));
+    refuse_state(std::string("the limit of ") + of + " cannot be set: " + std::strerror(errno));
 }
 
 void set_limits(const Confinement& confinement) {
@@ -304,8 +303,8 @@ std::string go_to_own_root(const Confinement& confinement, const Namespaces& own
               : elsewhere                         ? enter_own_root(confinement.places, confinement.work)
                                                   : enter_own_root({{".", "/run", true}}, "/run");
   if (!problem.empty() && elsewhere && ::chdir(confinement.work.c_str()) != 0)
-    throw Error(ErrorCode::bad_state, "the folder " + asperity::quoted(confinement.work) +
-                                          " cannot be entered: " + std::strerror(errno));
+    refuse_state("the folder " + asperity::quoted(confinement.work) +
+                 " cannot be entered: " + std::strerror(errno));
   return problem;
 }
 

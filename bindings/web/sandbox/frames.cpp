@@ -86,12 +86,12 @@ std::optional<std::vector<std::string>> take_frame(std::string& arrived, std::si
   };
   const auto count = number();
   if (!count) return {};
-  if (*count > most_texts) throw Error(ErrorCode::bad_file, "the received data are no frame");
+  if (*count > most_texts) refuse_bad_file("the received data are no frame");
   std::vector<std::string_view> found;
   for (std::uint64_t k = 0; k < *count; ++k) {
     const auto bytes = number();
     if (!bytes) return {};
-    if (*bytes > most_bytes) throw Error(ErrorCode::bad_file, "a frame is too long");
+    if (*bytes > most_bytes) refuse_bad_file("a frame is too long");
     most_bytes -= static_cast<std::size_t>(*bytes);
     if (arrived.size() - at < *bytes) return {};
     found.push_back(std::string_view(arrived).substr(at, static_cast<std::size_t>(*bytes)));

@@ -24,12 +24,12 @@ double hardness_of(const Material* material, const std::optional<double>& given,
   if (material != nullptr && material->hardness) return *material->hardness;
   const std::string wants = "the effect `plasticity` needs `hardness` of the " + body + " body";
   if (material == nullptr)
-    throw Error(ErrorCode::bad_state, wants + ", which has no material",
-                "give `material=` to the surface, or `hardness` to the effect");
-  throw Error(ErrorCode::bad_state,
-              wants + "; " + (material->name.empty() ? std::string("its material") : quoted(material->name)) +
-                  " has none",
-              "give it in lab.material{...}, or to the effect");
+    refuse_state(wants + ", which has no material",
+                 "give `material=` to the surface, or `hardness` to the effect");
+  refuse_state(wants + "; " +
+                   (material->name.empty() ? std::string("its material") : quoted(material->name)) +
+                   " has none",
+               "give it in lab.material{...}, or to the effect");
 }
 
 std::string share_text(double share) { return format_short(100 * share, 3) + " %"; }
@@ -68,8 +68,8 @@ void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Pla
   const auto rigid = [](const Material* material) { return material != nullptr && material->rigid; };
   if (rigid(lower_material(geometry.lower())) &&
       (geometry.upper_is_flat() || rigid(upper_material(geometry.upper()))))
-    throw Error(ErrorCode::bad_state, "the effect `plasticity` has no body that can yield",
-                "give a rough body a material with `hardness`, or leave the effect out");
+    refuse_state("the effect `plasticity` has no body that can yield",
+                 "give a rough body a material with `hardness`, or leave the effect out");
   yield.modulus_ratio = modulus_ratio_of(geometry, plan);
   std::string sentence =
       std::isfinite(yield.hardness())
