@@ -174,7 +174,6 @@ bool spectral_gradient(Level& level, const Limit& law, std::span<double> p, std:
 enum class ChainEffort {
   start,  // for a finer grid: pressures may leave their bounds
   brief,  // without the last resort
-  quick,  // at an offset: the same with a fresh gap
   less,   // fewer downhill passes at an offset
   full    // up to thousands of projected gradients
 };

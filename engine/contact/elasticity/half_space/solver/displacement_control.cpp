@@ -111,8 +111,6 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
   const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
-  const bool quick = !problem.yield.limits() && long_cells;
-  const ChainEffort effort = quick ? ChainEffort::quick : long_cells ? ChainEffort::less : ChainEffort::full;
   SoughtByLoad sought;
   sought.measure = [](const HalfSpaceAnswer& found) { return found.approach; };
   sought.wanted = sought.length = approach;
@@ -135,18 +133,12 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       if (answer.converged) return answer;
     }
   const int so_far = answer.iterations;
+  const ChainEffort effort = long_cells ? ChainEffort::less : ChainEffort::full;
   answer = solve_at_offset(problem, approach, infinity, nullptr, effort, monitor);
   answer.iterations += so_far;
   if (!answer.converged) {
     bound_by_full_contact();
     answer = solve_by_load(problem, sought, std::move(answer), monitor);
-    if (!answer.converged && long_cells) {
-      const int before = answer.iterations;
-      HalfSpaceAnswer downhill =
-          solve_at_offset(problem, approach, infinity, nullptr, ChainEffort::full, monitor);
-      downhill.iterations += before;
-      if (downhill.converged) answer = std::move(downhill);
-    }
   }
   return met(problem, std::move(answer), "an approach of " + metres(approach));
 }

@@ -157,13 +157,11 @@ double wanted_share(double fraction, double accuracy) {
 }
 
 // Searches the approach that flattens a share, to `accuracy`; unconverged if the load is the better variable.
-// `met`: the nearest loads on both sides. `alone`: never switch.
+// `met`: the nearest loads on both sides.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
-                                    Monitor& monitor, bool alone = false) {
-  // Solves (few if the error exceeds `far`) or applications before the search continues in the load.
-  constexpr int most_by_approach = 8, few_by_approach = 4, many_by_approach = 60;
-  constexpr double far = 1e-2, decades = 1e2;
+                                    Monitor& monitor) {
+  constexpr double decades = 1e2;
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
@@ -198,18 +196,12 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const bool warm = !start.pressure.empty();
     answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, effort, monitor);
     applications += answer.iterations;
-    if (warm && !answer.converged && now.tolerance > accuracy) {  // the start may be too far
-      answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, effort, monitor);
-      applications += answer.iterations;
-    }
     const double pressed_before = std::exchange(pressed, flattened(problem, answer) * span);
     if (solve > 0 && approach != before.approach)
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
     const bool sure = error > std::min(now.tolerance, gap_per_residual * answer.certificate.worst()) * gain;
-    const double rough = gap_per_residual * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
-    if (sure && answer.converged)
-      met.take({{answer.mean_pressure, pressed / span}, error > LoadsMet::certain * rough}, wanted / span);
+    if (sure && answer.converged) met.take({answer.mean_pressure, pressed / span}, wanted / span);
     if (load_tells_more(problem, answer)) break;
     const double tightest = std::max(least_tolerance, accuracy / gain);
     const bool loose = now.tolerance > tightest;
@@ -232,11 +224,8 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? error_share : 0.02) * error / gain));
     if (near_enough && !too_far) continue;
     // Decades of load for little approach.
-    const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
-                       std::abs(approach / before.approach - 1) < near_start;
-    const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
-                             (solve > 0 && applications > many_by_approach);
-    by_load = !alone && (steep || ((met.below || met.above) && long_enough));
+    by_load = met.below && met.above && met.above->at > decades * met.below->at &&
+              std::abs(approach / before.approach - 1) < near_start;
     if (by_load) break;
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
@@ -264,82 +253,6 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   return answer;
 }
 
-// Halves the step from `answer` on failure.
-HalfSpaceAnswer solve_nearer(const HalfSpaceProblem& now, const HalfSpaceAnswer& answer, double wanted,
-                             double& approach, int& stalls, int& applications, int most_applications,
-                             Monitor& monitor) {
-  constexpr int most_stalls = 5;
-  HalfSpaceAnswer found;
-  for (;;) {
-    found = {};  // free the memory first
-    HalfSpaceAnswer start = answer;
-    found = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
-    applications += found.iterations;
-    if (found.converged || approach == answer.approach || ++stalls > most_stalls ||
-        applications > most_applications)
-      return found;
-    approach = 0.5 * (approach + answer.approach);
-  }
-}
-
-// Continues in the approach from a solved contact, in steps up to `near_start`, halved on failure. With yield
-// on long cells this takes a few passes, a solve at a load the last resort. Failure: the last converged
-// contact, marked unconverged.
-HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
-                                     int most_applications, Monitor& monitor) {
-  constexpr int most_solves = 40;
-  constexpr double more = 4;  // growth until both sides are known
-  if (answer.pressure.empty() || !(answer.approach > 0)) return answer;
-  certify(problem, answer);
-  answer.converged = false;
-  answer.iterations = 0;
-  if (!(answer.certificate.worst() < good_start)) return answer;
-  const double span = known_range(problem.heights->values()).span();
-  const double wanted = wanted_share(fraction, problem.tolerance) * span;
-  const double unit = std::max(1.0, problem.rms / wanted);
-  const double tightest = std::max(least_tolerance, problem.tolerance / unit);
-  BracketedSecant root(wanted);
-  HalfSpaceProblem now = problem;
-  now.tolerance = std::max(problem.tolerance, rough_tolerance);
-  double reach = near_start;  // greatest relative step
-  bool below = false, above = false;
-  int applications = 0, stalls = 0;
-  for (int solve = 0; solve < most_solves; ++solve) {
-    const double pressed = flattened(problem, answer) * span;
-    const double error = std::abs(pressed - wanted) / wanted;
-    const bool told = error > gap_per_residual * answer.certificate.worst() * unit;
-    const bool sure = told || (solve > 0 && now.tolerance <= tightest);
-    const bool near_enough = solve > 0 && error <= 0.5 * problem.tolerance;
-    if (near_enough && now.tolerance <= problem.tolerance && !most_at_the_cap(problem, answer)) {
-      const double missed = std::max(answer.certificate.load, std::abs(pressed / span / fraction - 1));
-      answer.converged = std::max(answer.certificate.worst(), missed) <= problem.tolerance;
-      if (answer.converged) {
-        answer.certificate.load = missed;
-        break;
-      }
-    }
-    if (sure) {
-      root.take({answer.approach, pressed}, true);
-      (pressed < wanted ? below : above) = true;
-    }
-    if (below && above) reach = near_start;
-    now.tolerance = std::clamp(error_share * error, tightest, now.tolerance);
-    // Tighter tolerance if the side is unclear or the error small enough.
-    const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
-    if (!(next > 0)) break;
-    double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
-    HalfSpaceAnswer found =
-        solve_nearer(now, answer, wanted, approach, stalls, applications, most_applications, monitor);
-    if (!found.converged) break;
-    if (approach != answer.approach)
-      reach = std::min(near_start, more * std::abs(approach / answer.approach - 1));
-    answer = std::move(found);
-    answer.converged = false;
-  }
-  answer.iterations = applications;
-  return answer;
-}
-
 HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
                                 const LoadsMet& met, Monitor& monitor) {
   SoughtByLoad sought;
@@ -353,10 +266,6 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
   sought.most = 1;
   sought.length = fraction * known_range(problem.heights->values()).span();
   if (const auto full = pressure_that_flattens(problem)) sought.above = {*full, 1};
-  if (problem.yield.limits() && keeps_line_loads(problem.grid.hy() / problem.grid.hx()))
-    sought.other_way = [&](HalfSpaceAnswer found, int most_applications) {
-      return flatten_step_by_step(problem, fraction, std::move(found), most_applications, monitor);
-    };
   return solve_by_load(problem, sought, std::move(begun), monitor);
 }
 
@@ -504,12 +413,6 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.iterations += before;
   }
   if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
-  // With nearly all nodes at the cap one load has many approaches.
-  if (!answer.converged && problem.yield.caps() && 2 * answer.yielded > answer.contacts) {
-    const int before = answer.iterations;
-    answer = flatten_by_approach(problem, fraction, answer.approach, problem.tolerance, loads, monitor, true);
-    answer.iterations += before;
-  }
   return met(problem, std::move(answer), "a flattening of " + format_short(fraction));
 }
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
@@ -96,8 +95,7 @@ class LoadSearch {
         now_(problem),
         least_(problem.tolerance),
         answer_(std::move(begun)),
-        applications_(answer_.iterations),
-        long_cells_(keeps_line_loads(problem.grid.hy() / problem.grid.hx())) {
+        applications_(answer_.iterations) {
     now_.best_effort = true;
     now_.tolerance = std::max(problem.tolerance, start_tolerance);
   }
@@ -106,11 +104,7 @@ class LoadSearch {
 
  private:
   static constexpr int most_applications = 6000;
-  // Applications before the other way; its budget as a multiple; last budget.
-  static constexpr int many_applications = 300, share_of_the_other_way = 3, last_applications = 2000;
   static constexpr int most_doubts = 4;
-  static constexpr double near_if_easy = 2;  // as near_start, after an easy solve
-  static constexpr int few_applications = 40;
   static constexpr double next_error = 2e-3;  // next tolerance per present error
   // Smaller steps relative to the error: a false bracket.
   static constexpr double least_step = 0.01;
@@ -118,31 +112,10 @@ class LoadSearch {
   static constexpr double tighter = 0.1, tightest_of_all = 1e-3;
   static constexpr double same_contact = 0.1;
   static constexpr double furthest_along = 3;  // in steps between the answers
-  static constexpr double enough_gain = 0.5;   // ratio of errors after a step
 
   struct Measured {
     double pressure = 0, found = 0, certificate = infinity;
     std::int64_t contacts = 0, yielded = 0;
-  };
-
-  // Below complete contact, extrapolated to complete contact.
-  struct ShortOfAll {
-    BracketedSecant::Point last{}, before{};
-    void take(BracketedSecant::Point found) {
-      if (found.at <= last.at) return;
-      before = std::exchange(last, found);
-    }
-    std::optional<double> go_on(double wanted, double tried) const {
-      constexpr double less = 0.9;
-      if (!(before.at > 0) || !(last.value > before.value)) return {};
-      const double step = (wanted - last.value) * (last.at - before.at) / (last.value - before.value);
-      return step < less * (tried - last.at) ? std::optional(last.at + step) : std::nullopt;
-    }
-  };
-
-  struct Told {
-    BracketedSecant::Point point;
-    bool certainly;
   };
 
   double first_load();
@@ -155,8 +128,6 @@ class LoadSearch {
     return std::max(least_tolerance, tightest_of_all * problem_.tolerance / std::max(1.0, unit_));
   }
   void set_unit();
-  void doubt(BracketedSecant::Point found);
-  bool go_the_other_way(int most);
   HalfSpaceAnswer ended(double error, bool converged);
 
   const HalfSpaceProblem& problem_;
@@ -170,24 +141,16 @@ class LoadSearch {
   double least_;
   HalfSpaceAnswer answer_, before_;
   Measured last_, previous_;
-  ShortOfAll short_of_all_;
-  std::vector<Told> told_;
   int applications_;
-  const bool long_cells_;
-  bool easy_ = false, hard_ = false;  // few applications; last resort
   // The next measure replaces a rough one.
   bool rough_ = false, in_place_ = false;
-  bool went_the_other_way_ = false;
 };
 
 double LoadSearch::first_load() {
   // A stalled descent gives the order of the load.
   double pressure = std::max(answer_.mean_pressure, small_load(problem_, sought_.length));
   for (const auto& met : {sought_.met.below, sought_.met.above})
-    if (met && met->at < end_.at) {
-      root_.take(*met, true);
-      told_.push_back({*met, met->certainly});
-    }
+    if (met && met->at < end_.at) root_.take(*met, true);
   if (sought_.met.below || sought_.met.above) pressure = root_.next().value_or(pressure);
   return pressure < end_.at ? pressure : 0.5 * end_.at;
 }
@@ -196,13 +159,6 @@ void LoadSearch::set_unit() {
   if (!sought_.on_the_line || !(problem_.rms > 0)) return;
   unit_ =
       (answer_.approach < light_approach * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
-}
-
-// After a solve on the wrong side: bracket from the certain points.
-void LoadSearch::doubt(BracketedSecant::Point found) {
-  root_ = bracket_;
-  for (const Told& before : told_) root_.take(before.point, before.certainly);
-  root_.take(found, false);
 }
 
 // Moved out of the last two answers.
@@ -235,9 +191,8 @@ HalfSpaceAnswer LoadSearch::beginning(double pressure) {
 
 void LoadSearch::solve(double pressure) {
   const double ratio = pressure / answer_.mean_pressure;
-  const double near = easy_ ? near_if_easy : near_start;
-  const bool warm = answer_.certificate.worst() < good_start && ratio > 1 / (1 + near) && ratio < 1 + near &&
-                    !answer_.pressure.empty();
+  const bool warm = answer_.certificate.worst() < good_start && ratio > 1 / (1 + near_start) &&
+                    ratio < 1 + near_start && !answer_.pressure.empty();
   HalfSpaceAnswer start;
   if (warm) {
     start = beginning(pressure);
@@ -245,26 +200,9 @@ void LoadSearch::solve(double pressure) {
     before_ = {};
     in_place_ = rough_;
   }
-  // On long cells brief solves often fail and repeat the descent.
-  const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells_;
-  const bool tight = now_.tolerance < problem_.tolerance;
-  now_.brief = (warm && easy_) || ((loose || tight) && !hard_);
   answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
   applications_ += answer_.iterations;
-  // The start may have failed. Unconverged answers are enough if the side is clear.
   set_unit();
-  const auto will_do = [&] {
-    const double residual = answer_.certificate.worst();
-    return (tight && residual <= problem_.tolerance) ||
-           (loose && tells(error_of(sought_.measure(answer_)), residual));
-  };
-  if (now_.brief && !answer_.converged && !will_do()) {
-    now_.brief = false;
-    hard_ = loose;
-    answer_ = solve_at_pressure(now_, pressure, nullptr, monitor_);
-    applications_ += answer_.iterations;
-  }
-  easy_ = answer_.converged && answer_.iterations <= few_applications;
   if (!in_place_) previous_ = last_;
   last_ = {pressure, sought_.measure(answer_), answer_.certificate.worst(), answer_.contacts,
            answer_.yielded};
@@ -301,32 +239,18 @@ HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
   return std::move(answer_);
 }
 
-// Success: `answer_` is the result; otherwise the next start.
-bool LoadSearch::go_the_other_way(int most) {
-  before_ = {};
-  answer_ = sought_.other_way(std::move(answer_), most);
-  applications_ += answer_.iterations;
-  answer_.iterations = applications_;
-  return answer_.converged;
-}
-
 HalfSpaceAnswer LoadSearch::run() {
-  double pressure = first_load(), error = infinity, error_before = infinity;
+  double pressure = first_load(), error = infinity;
   int doubts = 0;
-  bool by_line = false;
   for (int solve_count = 0; solve_count < most_solves && pressure > 0 && std::isfinite(pressure);
        ++solve_count) {
     solve(pressure);
     const double found = last_.found;
-    error_before = std::exchange(error, error_of(found));
+    error = error_of(found);
     const bool near_enough = error <= 0.5 * problem_.tolerance;
     if (near_enough && answer_.certificate.worst() <= problem_.tolerance) return ended(error, true);
     const bool tightest = now_.tolerance <= least_, no_tighter = least_ <= floor();
     if (applications_ > most_applications || (near_enough && tightest)) break;
-    if (sought_.other_way && !went_the_other_way_ && applications_ > many_applications) {
-      went_the_other_way_ = true;
-      if (go_the_other_way(share_of_the_other_way * applications_)) return std::move(answer_);
-    }
     const double residual = std::max(answer_.certificate.worst(), tightest ? 0.0 : now_.tolerance);
     const bool told = tells(error, residual);
     rough_ = !told;
@@ -335,37 +259,19 @@ HalfSpaceAnswer LoadSearch::run() {
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
     const bool nothing_more = nearly_all(found, sought_.wanted, sought_.most);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
-    const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
     if (near_enough) continue;
-    // On long cells wrong steps are expensive: repeat until the side is clear.
-    if (long_cells_ && !sought_.on_the_line && !told && !tightest && now_.tolerance < solved_to) continue;
-    const bool line_fails = by_line && error > enough_gain * error_before;
-    std::optional<double> next;
-    if (nothing_more)
-      next = short_of_all_.go_on(sought_.wanted, pressure);
-    else if (!line_fails)
-      next = along_the_line();
-    if (next && !root_.holds(*next)) next = {};
-    by_line = next.has_value();
-    if (!nothing_more && sure && found < sought_.wanted) short_of_all_.take({pressure, found});
-    if (!next) next = root_.next();
+    std::optional<double> next = nothing_more ? std::nullopt : along_the_line();
+    if (!next || !root_.holds(*next)) next = root_.next();
     const double room = std::min(pressure, end_.at - pressure);
     if (!next || std::abs(*next - pressure) < least_step * std::min(error, 1.0) * room) {
       if (++doubts > most_doubts || (tightest && kept && !next)) break;
       if (tightest && !kept) least_ = std::max(floor(), tighter * least_);
       now_.tolerance = std::max(least_, much_tighter * now_.tolerance);
-      if (doubts > 1) told_.clear();  // certain points were false
-      doubt({pressure, found});
-    } else if (!in_place_) {
-      told_.push_back({{pressure, nothing_more ? infinity : found},
-                       error > LoadsMet::certain * gap_per_residual * unit_ * residual});
+      root_ = bracket_;
+      root_.take({pressure, found}, false);
     }
     pressure = next.value_or(pressure);
-  }
-  if (sought_.other_way) {
-    if (go_the_other_way(last_applications)) return std::move(answer_);
-    error = error_of(sought_.measure(answer_));
   }
   return ended(error, false);
 }

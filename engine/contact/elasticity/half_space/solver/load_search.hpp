@@ -33,14 +33,9 @@ inline bool nearly_all(double found, double wanted, double most) {
 
 // On both sides of the target, from a search in the approach.
 struct LoadsMet {
-  // Error with a certain side, per effect of the residual.
-  static constexpr double certain = 10;
-  struct Met : BracketedSecant::Point {
-    bool certainly = false;
-  };
-  std::optional<Met> below, above;
+  std::optional<BracketedSecant::Point> below, above;
 
-  void take(Met found, double wanted) {
+  void take(BracketedSecant::Point found, double wanted) {
     if (found.value < wanted && (!below || found.at > below->at)) below = found;
     if (found.value > wanted && (!above || found.at < above->at)) above = found;
   }
@@ -60,9 +55,6 @@ struct SoughtByLoad {
   // A load [Pa] certainly too large, and its measure.
   BracketedSecant::Point above = {BracketedSecant::unknown, BracketedSecant::unknown};
   LoadsMet met{};
-  // Alternative search, after many applications and before failure. After its failure the search continues
-  // from its last iterate.
-  std::function<HalfSpaceAnswer(HalfSpaceAnswer found, int most_applications)> other_way{};
 };
 
 // `begun`: pressures, or a mean pressure alone. Failure does not throw.

@@ -429,8 +429,7 @@ DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double o
   end.converged = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.converged || effort == ChainEffort::start) return end;
   // On long cells load searches are quicker.
-  if (effort != ChainEffort::full && effort != ChainEffort::less && keeps_line_loads(level.shape.aspect))
-    return end;
+  if (effort == ChainEffort::brief && keeps_line_loads(level.shape.aspect)) return end;
   end.stage = "preconditioned descent at a given approach, downhill";
   end.converged = offset_descent(level, fields, offset, tolerance,
                                  effort == ChainEffort::less ? less_careful : careful, effort, true, false);
