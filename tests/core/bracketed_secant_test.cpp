@@ -79,24 +79,5 @@ TEST(BracketedSecant, ADoubtfulValueLeavesTheBracket) {
   }
 }
 
-// Two inexact, nearly equal values give no slope: the better value replaces the last.
-TEST(BracketedSecant, AValueInPlaceOfARougherOneKeepsTheSlope) {
-  const auto next_of = [](bool instead) {
-    BracketedSecant root(4);
-    root.take({1, 1}, true);
-    root.take({3.5, 3.6}, false);
-    root.take({3.51, 3.51}, true, instead);
-    return root.next().value();
-  };
-  EXPECT_NEAR(next_of(true), 4, 1e-12);
-  EXPECT_GT(std::abs(next_of(false) - 4), .1);
-  BracketedSecant root(4, {0, 0}, {8, 8});
-  EXPECT_TRUE(root.holds(7.9));
-  EXPECT_FALSE(root.holds(8));
-  root.take({5, 5}, true);
-  EXPECT_FALSE(root.holds(6));
-  EXPECT_TRUE(root.holds(4));
-}
-
 }  // namespace
 }  // namespace asperity::bracketed_secant_test

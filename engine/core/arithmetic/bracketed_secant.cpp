@@ -18,8 +18,8 @@ constexpr double near_the_end = 0.3;   // fraction of the initial upper end
 constexpr double usual_power = 1.5, least_power = 1e-9;
 }  // namespace
 
-void BracketedSecant::take(Point found, bool sure, bool instead) {
-  if (taken_ == 0 || (found.at != last_.at && !instead)) {
+void BracketedSecant::take(Point found, bool sure) {
+  if (taken_ == 0 || found.at != last_.at) {
     earlier_ = before_;
     before_ = last_;
     ++taken_;

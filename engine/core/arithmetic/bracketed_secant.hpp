@@ -23,13 +23,13 @@ class BracketedSecant {
                            Scale scale = Scale::linear)
       : wanted_(wanted), scale_(scale), low_(low), high_(high), end_(high) {}
 
-  // `sure`: accurate enough to move the bracket. `instead`: replaces the last, rougher value.
-  void take(Point found, bool sure, bool instead = false);
-  bool holds(double place) const { return place > low_.at && place < high_.at; }
+  // `sure`: accurate enough to move the bracket.
+  void take(Point found, bool sure);
   // None if no double is left inside the bracket.
   std::optional<double> next();
 
  private:
+  bool holds(double place) const { return place > low_.at && place < high_.at; }
   double secant() const;
   // Whether the last value is nearer to the line than to the power law through the previous two.
   bool bends_as_a_line() const;

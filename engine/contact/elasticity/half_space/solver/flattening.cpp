@@ -68,29 +68,6 @@ using namespace search_rules;
 constexpr double rough_tolerance = 1e-2;  // of first solves and on coarser grids
 constexpr double error_share = 0.05;      // next tolerance per present error
 
-// As SoughtByLoad::on_the_line. The greatest of linear depths is convex: secants converge from one side.
-std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
-                                            const HalfSpaceAnswer& before, double wanted) {
-  constexpr int most_looks = 8;
-  const Range span = known_range(problem.heights->values());
-  if (presses_lightly(problem, last, span) || presses_lightly(problem, before, span)) return {};
-  const auto deepest = [&](double share) {
-    return -over_nodes<0, 1>(last.gap.size(), [&](std::size_t k, double* v) {
-      const double from = depth(problem, before, k);
-      v[0] = problem.faces(k) ? -(from + share * (depth(problem, last, k) - from)) : infinity;
-    })[0];
-  };
-  const double target = (1 - wanted) * span.span();
-  double at = 1, at_before = 0, found = deepest(1), found_before = deepest(0);
-  for (int look = 0; look < most_looks && std::abs(found - target) > a_little * span.span(); ++look) {
-    const double next = at + (target - found) * (at - at_before) / (found - found_before);
-    if (!std::isfinite(next)) return {};
-    at_before = std::exchange(at, next);
-    found_before = std::exchange(found, deepest(next));
-  }
-  return at;
-}
-
 std::optional<double> pressure_that_flattens(const HalfSpaceProblem& problem) {
   if (problem.boundary != Boundary::periodic) return {};
   return problem.yield.hardens() ? load_of_all(problem) : pressure_of_full_contact(problem);
@@ -259,10 +236,7 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
   sought.met = met;
   sought.measure = [&](const HalfSpaceAnswer& found) { return flattened(problem, found); };
   sought.wanted = wanted_share(fraction, problem.tolerance);
-  sought.on_the_line = [&, wanted = sought.wanted](const HalfSpaceAnswer& last,
-                                                   const HalfSpaceAnswer& before) {
-    return flattened_on_the_line(problem, last, before, wanted);
-  };
+  sought.of_gaps = true;
   sought.most = 1;
   sought.length = fraction * known_range(problem.heights->values()).span();
   if (const auto full = pressure_that_flattens(problem)) sought.above = {*full, 1};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inexact Newton method (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982) by secants. Near full
 // contact of a periodic tile the load is well-posed: the deepest gap falls as a power above one of the
-// missing load, but below one of the missing approach. With nearly constant contact area pressures and gaps
-// are linear in the load: the search follows the line through two answers.
+// missing load, but below one of the missing approach.
 #include "engine/contact/elasticity/half_space/solver/load_search.hpp"
 
 #include <algorithm>
@@ -110,24 +109,13 @@ class LoadSearch {
   static constexpr double least_step = 0.01;
   // Below the requested tolerance for a rough measure.
   static constexpr double tighter = 0.1, tightest_of_all = 1e-3;
-  static constexpr double same_contact = 0.1;
-  static constexpr double furthest_along = 3;  // in steps between the answers
-
-  struct Measured {
-    double pressure = 0, found = 0, certificate = infinity;
-    std::int64_t contacts = 0, yielded = 0;
-  };
 
   double first_load();
   void solve(double pressure);
-  HalfSpaceAnswer beginning(double pressure);
-  std::optional<double> along_the_line() const;
   double error_of(double found) const { return std::abs(found / sought_.wanted - 1); }
-  bool tells(double error, double residual) const { return error > gap_per_residual * unit_ * residual; }
   double floor() const {
     return std::max(least_tolerance, tightest_of_all * problem_.tolerance / std::max(1.0, unit_));
   }
-  void set_unit();
   HalfSpaceAnswer ended(double error, bool converged);
 
   const HalfSpaceProblem& problem_;
@@ -139,11 +127,8 @@ class LoadSearch {
   BracketedSecant root_;
   HalfSpaceProblem now_;
   double least_;
-  HalfSpaceAnswer answer_, before_;
-  Measured last_, previous_;
+  HalfSpaceAnswer answer_;
   int applications_;
-  // The next measure replaces a rough one.
-  bool rough_ = false, in_place_ = false;
 };
 
 double LoadSearch::first_load() {
@@ -155,80 +140,16 @@ double LoadSearch::first_load() {
   return pressure < end_.at ? pressure : 0.5 * end_.at;
 }
 
-void LoadSearch::set_unit() {
-  if (!sought_.on_the_line || !(problem_.rms > 0)) return;
-  unit_ =
-      (answer_.approach < light_approach * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
-}
-
-// Moved out of the last two answers.
-HalfSpaceAnswer LoadSearch::beginning(double pressure) {
-  in_place_ = false;
-  if (!sought_.on_the_line) return std::move(answer_);
-  const double apart = answer_.mean_pressure - before_.mean_pressure;
-  const double steps = (pressure - answer_.mean_pressure) / apart;
-  const bool line = before_.pressure.size() == answer_.pressure.size() && apart != 0;
-  if (!line || !(std::abs(steps) <= furthest_along)) {
-    in_place_ = line && rough_;
-    if (in_place_) return std::move(answer_);
-    before_ = answer_;
-    return std::move(answer_);
-  }
-  in_place_ = rough_;
-  HalfSpaceAnswer& target = in_place_ ? answer_ : before_;
-  for_nodes(
-      answer_.pressure.size(),
-      [steps, p = answer_.pressure.data(), g = answer_.gap.data(), p0 = before_.pressure.data(),
-       g0 = before_.gap.data(), to_p = target.pressure.data(), to_g = target.gap.data()](std::size_t k) {
-        to_p[k] = p[k] == p0[k] ? p[k] : p[k] + steps * (p[k] - p0[k]);
-        to_g[k] = g[k] + steps * (g[k] - g0[k]);
-      });
-  HalfSpaceAnswer start = std::move(target);
-  start.mean_pressure = pressure;
-  if (!in_place_) before_ = std::move(answer_);
-  return start;
-}
-
 void LoadSearch::solve(double pressure) {
   const double ratio = pressure / answer_.mean_pressure;
   const bool warm = answer_.certificate.worst() < good_start && ratio > 1 / (1 + near_start) &&
                     ratio < 1 + near_start && !answer_.pressure.empty();
-  HalfSpaceAnswer start;
-  if (warm) {
-    start = beginning(pressure);
-  } else {
-    before_ = {};
-    in_place_ = rough_;
-  }
+  const HalfSpaceAnswer start = std::move(answer_);
   answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
   applications_ += answer_.iterations;
-  set_unit();
-  if (!in_place_) previous_ = last_;
-  last_ = {pressure, sought_.measure(answer_), answer_.certificate.worst(), answer_.contacts,
-           answer_.yielded};
-}
-
-// Empty for different contact areas.
-std::optional<double> LoadSearch::along_the_line() const {
-  const auto alike = [](std::int64_t a, std::int64_t b) {
-    return static_cast<double>(std::abs(a - b)) <= same_contact * static_cast<double>(std::max(a, b));
-  };
-  if (!sought_.on_the_line) return {};
-  if (!(previous_.pressure > 0) || !alike(last_.contacts, previous_.contacts) ||
-      !alike(last_.yielded, previous_.yielded)) {
-    const auto nodes = static_cast<std::int64_t>(problem_.grid.nodes());
-    if (end_.at != sought_.above.at || !(end_.value < infinity) || !alike(last_.contacts, nodes) ||
-        !(last_.found < sought_.wanted))
-      return {};
-    return last_.pressure +
-           (sought_.wanted - last_.found) * (end_.at - last_.pressure) / (end_.value - last_.found);
-  }
-  const double rough = sought_.wanted * unit_ * (last_.certificate + previous_.certificate);
-  if (!(std::abs(last_.found - previous_.found) > gap_per_residual * rough)) return {};
-  std::optional<double> share = (sought_.wanted - previous_.found) / (last_.found - previous_.found);
-  if (before_.mean_pressure == previous_.pressure) share = sought_.on_the_line(answer_, before_);
-  if (!share || !(std::abs(*share - 1) <= furthest_along)) return {};
-  return previous_.pressure + *share * (last_.pressure - previous_.pressure);
+  if (sought_.of_gaps && problem_.rms > 0)
+    unit_ =
+        (answer_.approach < light_approach * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
 }
 
 HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
@@ -245,24 +166,22 @@ HalfSpaceAnswer LoadSearch::run() {
   for (int solve_count = 0; solve_count < most_solves && pressure > 0 && std::isfinite(pressure);
        ++solve_count) {
     solve(pressure);
-    const double found = last_.found;
+    const double found = sought_.measure(answer_);
     error = error_of(found);
     const bool near_enough = error <= 0.5 * problem_.tolerance;
     if (near_enough && answer_.certificate.worst() <= problem_.tolerance) return ended(error, true);
     const bool tightest = now_.tolerance <= least_, no_tighter = least_ <= floor();
     if (applications_ > most_applications || (near_enough && tightest)) break;
     const double residual = std::max(answer_.certificate.worst(), tightest ? 0.0 : now_.tolerance);
-    const bool told = tells(error, residual);
-    rough_ = !told;
-    const bool kept = !sought_.on_the_line || no_tighter;
+    const bool told = error > gap_per_residual * unit_ * residual;
+    const bool kept = !sought_.of_gaps || no_tighter;
     const bool sure = told || (tightest && kept && answer_.converged);
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
     const bool nothing_more = nearly_all(found, sought_.wanted, sought_.most);
-    root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
+    root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more);
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
     if (near_enough) continue;
-    std::optional<double> next = nothing_more ? std::nullopt : along_the_line();
-    if (!next || !root_.holds(*next)) next = root_.next();
+    const std::optional<double> next = root_.next();
     const double room = std::min(pressure, end_.at - pressure);
     if (!next || std::abs(*next - pressure) < least_step * std::min(error, 1.0) * room) {
       if (++doubts > most_doubts || (tightest && kept && !next)) break;

@@ -44,10 +44,8 @@ struct LoadsMet {
 struct SoughtByLoad {
   // Never falls as the load grows.
   std::function<double(const HalfSpaceAnswer&)> measure;
-  // Multiple of the difference from `before` to `last` with the wanted measure on their line, or empty. If
-  // set, solves start on this line.
-  std::function<std::optional<double>(const HalfSpaceAnswer& last, const HalfSpaceAnswer& before)>
-      on_the_line{};
+  // Gaps determine the measure: their error can be much larger than the tolerance.
+  bool of_gaps = false;
   double wanted = 0;  // > 0, of the measure
   // Limit of the measure at any load.
   double most = std::numeric_limits<double>::infinity();
