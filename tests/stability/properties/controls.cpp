@@ -2,9 +2,7 @@
 // The approach, indentation or flattening of a press, requested from fresh bodies, must return its load
 // within the bounds, for about as many transforms. Unreachable values (beyond full contact of a periodic
 // tile, on a flat) are refused by name. Cell aspects up to 1000.
-// Measured on 4200 scenes (seeds 1 to 10, 9201 to 9204): 7 refused by name for hardening on long cells, the
-// others solved. More than 10 times + 60 transforms: none of 7823 presses by approach or indentation, 2 of
-// 3917 by flattening. Known failure, by flattening: scene 2 of seed 11 (aspect 948).
+// Measurements and a known failure (scene 2 of seed 11, aspect 948): docs/stability/random_scenes.md.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
