@@ -7,8 +7,17 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
+#include <set>
 
 namespace asperity {
+
+StaticText::StaticText(const std::string& composed) {
+  static std::mutex mutex;
+  static auto& all = *new std::set<std::string>;  // never destroyed: static tables of other sources use it
+  const std::lock_guard lock(mutex);
+  *this = all.insert(composed).first->c_str();
+}
 
 std::string format_exact(double value) {
   if (std::isnan(value)) return "nan";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,6 +10,20 @@
 #include <vector>
 
 namespace asperity {
+
+// A name or sentence of the language, valid until the process ends. A literal is constant data without
+// constructor code. A composed text is stored once.
+struct StaticText : std::string_view {
+  constexpr StaticText(const char* literal = "") : std::string_view(literal) {}
+  StaticText(const std::string& composed);
+  const char* c_str() const { return data(); }
+  operator std::string() const { return std::string(begin(), end()); }
+};
+template <class Left, class Right>
+requires(std::same_as<Left, StaticText> || std::same_as<Right, StaticText>) std::string operator+(
+    const Left& left, const Right& right) {
+  return std::string(left).append(right);
+}
 
 // Shortest text with the same double ("1e-06", "inf", "nan").
 std::string format_exact(double value);

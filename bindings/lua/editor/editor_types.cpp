@@ -67,7 +67,7 @@ void cats_function(std::string& page, const Function& function, const std::strin
   for (const Parameter& p : function.parameters) {
     const bool optional = p.type.ends_with("?");
     page += "---@param " + p.name + (optional ? "?" : "") + " " +
-            cats_type(optional ? p.type.substr(0, p.type.size() - 1) : p.type) + " " + p.sentence + "\n";
+            cats_type(std::string(p.type, 0, p.type.size() - (optional ? 1 : 0))) + " " + p.sentence + "\n";
     names.push_back(p.name);
   }
   if (function.options != nullptr) {
@@ -93,7 +93,7 @@ std::string editor_types() {
     for (const Function& f : type->methods) cats_block(page, f);
     cats_class(page, type->name, type->sentence, type->fields);
     for (const Operator& operation : type->operators)
-      page += "---@operator " + operation.event.substr(2) +
+      page += "---@operator " + std::string(operation.event.substr(2)) +
               (operation.operand.empty() ? "" : "(" + cats_type(operation.operand) + ")") + ": " +
               cats_type(operation.returns) + "\n";
     page += "local " + type->name + " = {}\n\n";

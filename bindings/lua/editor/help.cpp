@@ -21,7 +21,7 @@ std::string signature(const Function& function) {
   std::vector<std::string> parts;
   for (const Parameter& p : function.parameters) {
     const bool optional = p.type.ends_with("?");
-    parts.push_back(optional ? "[" + p.name + "]" : p.name);
+    parts.push_back(optional ? "[" + p.name + "]" : std::string(p.name));
   }
   if (function.options != nullptr && function.options->is_list()) {
     std::string keys;

@@ -167,8 +167,8 @@ std::string show(const Value& value) {
     std::string operator()(double v) const { return format_short(v + 0.0); }  // avoids "-0"
     std::string operator()(const std::string& v) const { return v; }
     std::string operator()(const Object& v) const {
-      return v.pointer == nullptr || v.type->describe == nullptr ? v.type->article_name
-                                                                 : v.type->describe(v.pointer.get());
+      const bool known = v.pointer != nullptr && v.type->describe != nullptr;
+      return known ? v.type->describe(v.pointer.get()) : std::string(v.type->article_name);
     }
     std::string operator()(const std::shared_ptr<Record>& v) const {
       std::string text;

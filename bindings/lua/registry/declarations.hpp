@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bindings/lua/registry/value.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 class Ledger;
@@ -24,14 +25,14 @@ class BlockInfo;
 using Body = Values (*)(Call&);
 
 struct Parameter {
-  std::string name{};
-  std::string type{};  // "number", "Surface", "function"; a trailing "?": optional
-  std::string sentence{};
+  StaticText name{};
+  StaticText type{};  // "number", "Surface", "function"; a trailing "?": optional
+  StaticText sentence{};
 };
 
 // A table below a function in help and reference; a row begins with its name.
 struct Listing {
-  std::string title{};
+  StaticText title{};
   std::vector<std::string> columns{};
   std::vector<std::vector<std::string>> rows{};
 };
@@ -48,15 +49,15 @@ struct OptionTable {
 inline OptionTable optional(const BlockInfo& keys) { return {&keys, true}; }
 
 struct Function {
-  std::string name{};
+  StaticText name{};
   Body body = nullptr;
-  std::string sentence{};
+  StaticText sentence{};
   std::vector<Parameter> parameters{};
   OptionTable options{};
   // "State", "number", "Profile[]", "Roughness" (a record), "iterator<State>", "number, string", "" for none
-  std::string returns{};
-  std::string example{};  // required; runs after example_preamble()
-  bool heavy = false;     // skipped by `asperity check`
+  StaticText returns{};
+  StaticText example{};  // required; runs after example_preamble()
+  bool heavy = false;    // skipped by `asperity check`
   // Skipped by `asperity check` because the result depends on rows unknown to a dry run. Not in the journal.
   bool unknown_when_dry = false;
   Listing (*listing)() = nullptr;
@@ -73,36 +74,36 @@ std::vector<std::string> result_types(const Function& function);
 std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::string_view type);
 
 struct Getter {
-  std::string name{};
-  std::string type{};
-  std::string sentence{};
+  StaticText name{};
+  StaticText type{};
+  StaticText sentence{};
   Dimension dimension{};
   Body body = nullptr;
 };
 
 struct RecordInfo {
-  std::string name{};   // "ArealRoughness": in declared types
-  std::string title{};  // "roughness": in print() and errors
-  std::string sentence{};
+  StaticText name{};   // "ArealRoughness": in declared types
+  StaticText title{};  // "roughness": in print() and errors
+  StaticText sentence{};
   std::vector<Getter> fields{};
 };
 
 struct Operator {
-  std::string event{};    // "__sub"
-  std::string form{};     // "a - b", for errors and help
-  std::string operand{};  // "Surface|number"; "" if unary
-  std::string sentence{};
-  std::string returns{};
-  std::string example{};
+  StaticText event{};    // "__sub"
+  StaticText form{};     // "a - b", for errors and help
+  StaticText operand{};  // "Surface|number"; "" if unary
+  StaticText sentence{};
+  StaticText returns{};
+  StaticText example{};
   Body body = nullptr;  // both operands; a unary operand twice
 };
 
 struct Class {
-  std::string name{};          // "Surface"
-  std::string article_name{};  // "a surface"
-  std::string sentence{};
+  StaticText name{};          // "Surface"
+  StaticText article_name{};  // "a surface"
+  StaticText sentence{};
   std::vector<Getter> fields{};
-  std::string drawing{};  // text drawing in the reference
+  StaticText drawing{};  // text drawing in the reference
   std::vector<Function> methods{};
   std::vector<Operator> operators{};
   std::vector<const RecordInfo*> results{};
@@ -141,15 +142,15 @@ const Class& class_of() {
 }
 
 struct Constant {
-  std::string name{};
-  std::string type{};
-  std::string sentence{};
+  StaticText name{};
+  StaticText type{};
+  StaticText sentence{};
   Value (*value)() = nullptr;
 };
 
 struct Module {
-  std::string path{};  // "lab.surface"
-  std::string sentence{};
+  StaticText path{};  // "lab.surface"
+  StaticText sentence{};
   std::vector<Function> functions{};
   std::vector<Constant> constants{};
   std::vector<const RecordInfo*> results{};

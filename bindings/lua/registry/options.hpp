@@ -32,12 +32,12 @@ namespace asperity::lua {
 class BlockInfo;
 
 struct OptionInfo {
-  std::string name;
-  std::string type;  // "length", "number", "integer", "string", "boolean", "Surface", "\"all\"|\"resolved\""
+  StaticText name;
+  StaticText type;  // "length", "number", "integer", "string", "boolean", "Surface", "\"all\"|\"resolved\""
   Dimension dimension{};
   std::string default_text;  // as written in a script; "" if none
   std::string range_text;    // "above 0"; may be empty
-  std::string sentence;
+  StaticText sentence;
   bool required = false;
   const BlockInfo* inner = nullptr;  // block of a nested table
 };
@@ -214,27 +214,27 @@ class Block final : public BlockInfo {
 
 // `read` appends problems that begin with quoted(info.name).
 template <class O, class Read>
-Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
+Option<O> custom(StaticText name, StaticText type, StaticText sentence, Read read) {
   Option<O> option;
-  option.info = {std::move(name), std::move(type), {}, "", "", std::move(sentence), false};
+  option.info = {name, type, {}, "", "", sentence, false};
   option.read = std::move(read);
   return option;
 }
 
 // `read` takes the member in place of the struct.
 template <class O, class M, class Read>
-Option<O> custom(std::string name, std::string type, std::string sentence, M O::*member, Read read) {
-  return custom<O>(std::move(name), std::move(type), std::move(sentence),
+Option<O> custom(StaticText name, StaticText type, StaticText sentence, M O::*member, Read read) {
+  return custom<O>(name, type, sentence,
                    [member, read](const Argument& value, const OptionInfo& info, O& options,
                                   Problems& problems) { read(value, info, options.*member, problems); });
 }
 
 // A plain number for dimension::number. Member: double or optional<double>.
 template <class O, class M>
-Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRange range,
-                   std::string sentence) {
+Option<O> quantity(StaticText name, M O::*member, Dimension dimension, NumberRange range,
+                   StaticText sentence) {
   auto option = custom<O>(
-      std::move(name), dimension == dimension::number ? "number" : describe(dimension), std::move(sentence),
+      name, dimension == dimension::number ? "number" : describe(dimension), sentence,
       [member, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
         if (auto number = detail::read_quantity(value, info, range, problems))
           detail::assign(options.*member, *number);
@@ -249,14 +249,14 @@ Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRa
 }
 
 template <class O, class M>
-Option<O> number(std::string name, M O::*member, NumberRange range, std::string sentence) {
-  return quantity<O>(std::move(name), member, dimension::number, range, std::move(sentence));
+Option<O> number(StaticText name, M O::*member, NumberRange range, StaticText sentence) {
+  return quantity<O>(name, member, dimension::number, range, sentence);
 }
 
 template <class O, class M>
-Option<O> integer(std::string name, M O::*member, NumberRange range, std::string sentence) {
+Option<O> integer(StaticText name, M O::*member, NumberRange range, StaticText sentence) {
   auto option = custom<O>(
-      std::move(name), "integer", std::move(sentence),
+      name, "integer", sentence,
       [member, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
         if (auto number = detail::read_integer(value, info, range, problems))
           detail::assign(options.*member, *number);
@@ -271,9 +271,9 @@ Option<O> integer(std::string name, M O::*member, NumberRange range, std::string
 
 // Member: bool, or optional<bool>, which stays unrecorded.
 template <class O, class M>
-Option<O> flag(std::string name, M O::*member, std::string sentence) {
+Option<O> flag(StaticText name, M O::*member, StaticText sentence) {
   auto option =
-      custom<O>(std::move(name), "boolean", std::move(sentence),
+      custom<O>(name, "boolean", sentence,
                 [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                   if (value.is_boolean())
                     options.*member = value.boolean();
@@ -287,8 +287,8 @@ Option<O> flag(std::string name, M O::*member, std::string sentence) {
 
 // Member: std::string or optional<std::string>.
 template <class O, class M>
-Option<O> text(std::string name, M O::*member, std::string sentence) {
-  return custom<O>(std::move(name), "string", std::move(sentence),
+Option<O> text(StaticText name, M O::*member, StaticText sentence) {
+  return custom<O>(name, "string", sentence,
                    [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                      if (value.is_text())
                        options.*member = std::string(value.text());
@@ -298,8 +298,8 @@ Option<O> text(std::string name, M O::*member, std::string sentence) {
 }
 
 template <class O, class M>
-Option<O> choice(std::string name, M O::*member,
-                 std::vector<std::pair<std::string, std::type_identity_t<M>>> words, std::string sentence) {
+Option<O> choice(StaticText name, M O::*member,
+                 std::vector<std::pair<std::string, std::type_identity_t<M>>> words, StaticText sentence) {
   std::string type;
   std::vector<std::string> names;
   for (const auto& [word, value] : words) {
@@ -307,7 +307,7 @@ Option<O> choice(std::string name, M O::*member,
     names.push_back(word);
   }
   auto option = custom<O>(
-      std::move(name), type, std::move(sentence),
+      name, type, sentence,
       [member, words, names](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
         if (const auto place = detail::read_word(value, info, names, problems))
           options.*member = words[*place].second;
@@ -333,9 +333,9 @@ std::string digest_text(const T& value) {
 
 // Member: std::optional<T> or std::shared_ptr<const T>.
 template <class T, class O, class M>
-Option<O> native(std::string name, M O::*member, std::string type, std::string wanted, std::string sentence) {
+Option<O> native(StaticText name, M O::*member, StaticText type, StaticText wanted, StaticText sentence) {
   auto option = custom<O>(
-      std::move(name), std::move(type), std::move(sentence),
+      name, type, sentence,
       [member, wanted](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
         Object* object = value.as_object(class_of<T>());
         if (object == nullptr) return detail::wrong_type(value, info, wanted, problems);
@@ -354,9 +354,9 @@ Option<O> native(std::string name, M O::*member, std::string type, std::string w
 
 // A list of at least `least` whole numbers from 1 to `most`.
 template <class O>
-Option<O> integers(std::string name, std::vector<int> O::*member, std::int64_t least, double most,
-                   std::string sentence) {
-  return custom<O>(std::move(name), "integer[]", std::move(sentence),
+Option<O> integers(StaticText name, std::vector<int> O::*member, std::int64_t least, double most,
+                   StaticText sentence) {
+  return custom<O>(name, "integer[]", sentence,
                    [=](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                      if (!value.is_table() || value.length() < least)
                        return detail::wrong_type(
@@ -372,8 +372,8 @@ Option<O> integers(std::string name, std::vector<int> O::*member, std::int64_t l
 
 // The caller reads the function. `wanted`: "a function(x)".
 template <class O>
-Option<O> function(std::string name, std::string wanted, std::string sentence) {
-  return custom<O>(std::move(name), "function", std::move(sentence),
+Option<O> function(StaticText name, StaticText wanted, StaticText sentence) {
+  return custom<O>(name, "function", sentence,
                    [wanted](const Argument& value, const OptionInfo& info, O&, Problems& problems) {
                      if (!value.is_function()) detail::wrong_type(value, info, wanted, problems);
                    });
@@ -381,9 +381,9 @@ Option<O> function(std::string name, std::string wanted, std::string sentence) {
 
 // A nested table; its problems join the outer list.
 template <class O, class Inner, class M>
-Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, std::string sentence) {
+Option<O> table_of(StaticText name, M O::*member, const Block<Inner>& inner, StaticText sentence) {
   auto option = custom<O>(
-      std::move(name), "table", std::move(sentence),
+      name, "table", sentence,
       [member, &inner](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
         if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
         detail::collect(problems, [&] { options.*member = inner.read(value, quoted(info.name)); });
@@ -417,11 +417,11 @@ Option<O> cells_option(int O::*nx, int O::*ny) {
 
 // A length, or {along x, along y}. Members: double or optional<double>.
 template <class O, class M>
-Option<O> pair_option(std::string name, M O::*x, M O::*y, Dimension dimension, NumberRange range,
-                      std::string sentence) {
+Option<O> pair_option(StaticText name, M O::*x, M O::*y, Dimension dimension, NumberRange range,
+                      StaticText sentence) {
   const std::string kind = describe(dimension);
   Option<O> option =
-      custom<O>(std::move(name), kind + "|{" + kind + ", " + kind + "}", std::move(sentence),
+      custom<O>(name, kind + "|{" + kind + ", " + kind + "}", sentence,
                 [x, y, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                   if (value.is_table()) {
                     detail::read_pair(value, info, "one value or two in a list", problems,

@@ -135,16 +135,16 @@ Body method(Run) {
 // A field of a native value. `read`: a member or a member function without arguments; each of `further` the
 // same for the result.
 template <auto read, auto... further>
-Getter getter(std::string name, std::string type, std::string sentence, Dimension dimension = {}) {
-  return {std::move(name), std::move(type), std::move(sentence), dimension, [](Call& call) -> Values {
+Getter getter(StaticText name, StaticText type, StaticText sentence, Dimension dimension = {}) {
+  return {name, type, sentence, dimension, [](Call& call) -> Values {
             using T = decltype(detail::class_of_member(read));
             return {detail::value_of_held(detail::follow<read, further...>(std::as_const(call.self<T>())))};
           }};
 }
 // `read`: a captureless lambda.
 template <class T, std::invocable<const T&> Read>
-Getter getter(std::string name, std::string type, std::string sentence, Read read, Dimension dimension = {}) {
-  return {std::move(name), std::move(type), std::move(sentence), dimension, method(read)};
+Getter getter(StaticText name, StaticText type, StaticText sentence, Read read, Dimension dimension = {}) {
+  return {name, type, sentence, dimension, method(read)};
 }
 
 // A field of a record made from a T. `read`: a member, a member function or a function of T; its result
@@ -153,19 +153,16 @@ template <class T>
 class RecordField {
  public:
   template <std::invocable<const T&> Read>
-  RecordField(std::string name, Read read, Dimension dimension, std::string sentence)
-      : info{std::move(name), detail::type_of_held<Result<Read>>(), std::move(sentence), dimension},
+  RecordField(StaticText name, Read read, Dimension dimension, StaticText sentence)
+      : info{name, detail::type_of_held<Result<Read>>(), sentence, dimension},
         read_([read](const T& of) { return detail::value_of_held(std::invoke(read, of)); }) {}
   template <std::invocable<const T&> Read>
-  RecordField(std::string name, Read read, std::string sentence)
-      : RecordField(std::move(name), read, dimension::number, std::move(sentence)) {}
+  RecordField(StaticText name, Read read, StaticText sentence)
+      : RecordField(name, read, dimension::number, sentence) {}
   // A record or a list of records.
   template <std::invocable<const T&> Read, class U>
-  RecordField(std::string name, Read read, const RecordType<U>& type, std::string sentence)
-      : info{std::move(name),
-             type.name + (std::same_as<Result<Read>, U> ? "" : "[]"),
-             std::move(sentence),
-             {}},
+  RecordField(StaticText name, Read read, const RecordType<U>& type, StaticText sentence)
+      : info{name, type.name + (std::same_as<Result<Read>, U> ? "" : "[]"), sentence, {}},
         read_([read, &type](const T& of) -> Value {
           if constexpr (std::same_as<Result<Read>, U>)
             return type(std::invoke(read, of));
@@ -173,21 +170,21 @@ class RecordField {
             return type.list(std::invoke(read, of));
         }) {}
   template <std::invocable<const T&> Read>
-  RecordField(std::string name, std::string type, Read read, std::string sentence)
-      : info{std::move(name), std::move(type), std::move(sentence), {}},
+  RecordField(StaticText name, StaticText type, Read read, StaticText sentence)
+      : info{name, type, sentence, {}},
         read_([read](const T& of) -> Value { return std::invoke(read, of); }) {}
 
   // Without the effect, reading the field is an error that names it.
-  RecordField& needs(std::string effect) {
+  RecordField& needs(StaticText effect) {
     where_known();
-    info.sentence += "; needs " + effect;
-    effect_ = std::move(effect);
+    info.sentence = info.sentence + "; needs " + effect;
+    effect_ = effect;
     return *this;
   }
   // Without a value, the field is missing instead of nil.
   RecordField& where_known() {
     where_known_ = true;
-    if (info.type.ends_with('?')) info.type.pop_back();
+    if (info.type.ends_with('?')) info.type = std::string(info.type, 0, info.type.size() - 1);
     return *this;
   }
   // Varies between records; the sentence must say so.
@@ -212,7 +209,7 @@ class RecordField {
   using Result = std::remove_cvref_t<std::invoke_result_t<Read, const T&>>;
 
   Held<Value(const T&)> read_;
-  std::string effect_{};
+  StaticText effect_{};
   bool where_known_ = false;
   Dimension (*unit_)(const T&) = nullptr;
 };
@@ -223,9 +220,8 @@ class RecordType : public RecordInfo {
  public:
   using Field = RecordField<T>;
 
-  RecordType(std::string type_name, std::string print_title, std::string meaning, std::vector<Field> entries)
-      : RecordInfo{std::move(type_name), std::move(print_title), std::move(meaning), {}},
-        entries_(std::move(entries)) {
+  RecordType(StaticText type_name, StaticText print_title, StaticText meaning, std::vector<Field> entries)
+      : RecordInfo{type_name, print_title, meaning, {}}, entries_(std::move(entries)) {
     for (const Field& entry : entries_) fields.push_back(entry.info);
   }
   RecordType& titled(std::string (*title_of)(const T&)) {
@@ -235,7 +231,7 @@ class RecordType : public RecordInfo {
 
   Record operator()(const T& of) const {
     Record record;
-    record.name = title_of_ != nullptr ? title_of_(of) : title;
+    record.name = title_of_ != nullptr ? title_of_(of) : std::string(title);
     record.type = this;
     for (const Field& entry : entries_) entry.add_to(record, of);
     return record;

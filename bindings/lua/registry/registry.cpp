@@ -37,9 +37,9 @@ void* Call::object_pointer(int k, std::string_view name, const Class& type) cons
   return object->pointer.get();
 }
 
-double Call::number(int k, std::string_view name) const { return quantity(k, name, dimension::number); }
+double Call::number(int k, StaticText name) const { return quantity(k, name, dimension::number); }
 
-double Call::quantity(int k, std::string_view name, Dimension dimension) const {
+double Call::quantity(int k, StaticText name, Dimension dimension) const {
   const Argument value = argument(k);
   OptionInfo info;
   info.name = name;

@@ -43,8 +43,8 @@ class Call {
     return std::static_pointer_cast<T>(Argument(L, 1).as_object(class_of<T>())->pointer);
   }
 
-  double number(int k, std::string_view name) const;
-  double quantity(int k, std::string_view name, Dimension dimension) const;
+  double number(int k, StaticText name) const;
+  double quantity(int k, StaticText name, Dimension dimension) const;
   std::string text(int k, std::string_view name, const std::string& wanted = "a string") const;
   template <class T>
   const T& object(int k, std::string_view name) const {
@@ -65,7 +65,7 @@ class Call {
   bool notes_inputs() const;
   void* self_pointer(const Class& type) const;
   void* object_pointer(int k, std::string_view name, const Class& type) const;
-  const std::string& function_;
+  std::string function_;
   int first_;
   mutable Resolved inputs_;
 };

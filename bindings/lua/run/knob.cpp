@@ -19,9 +19,9 @@ struct KnobKeys : RunKnob {
 };
 
 // The first quantity with a unit fixes the dimension.
-Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::string sentence) {
+Option<KnobKeys> knob_quantity(StaticText name, double RunKnob::*member, StaticText sentence) {
   return custom<KnobKeys>(
-             std::move(name), "number|string", std::move(sentence),
+             name, "number|string", sentence,
              [member](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
                const auto quantity = detail::read_any_quantity(
                    value, info.name, "a number or a quantity such as \"20 MPa\"", problems);

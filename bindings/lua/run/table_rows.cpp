@@ -184,7 +184,7 @@ Values expect(Call& call) {
   return {run.expect(expectation, *table, book != nullptr ? book->name() : table->name()).passed};
 }
 
-Function reduction(const std::string& name, Body body, const char* sentence) {
+Function reduction(StaticText name, Body body, StaticText sentence) {
   return {.name = name,
           .body = body,
           .sentence = sentence,

@@ -41,8 +41,8 @@ Values read_file(Call& call) {
 // "um" means "1 um".
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
 template <class O>
-Option<O> length_of_one(std::string name, std::optional<double> O::*member, std::string sentence) {
-  Option<O> option = quantity(std::move(name), member, dimension::length, above(0), std::move(sentence));
+Option<O> length_of_one(StaticText name, std::optional<double> O::*member, StaticText sentence) {
+  Option<O> option = quantity(name, member, dimension::length, above(0), sentence);
   option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
     if (const auto length = read_unit(value, info, problems)) options.*member = *length;
   };

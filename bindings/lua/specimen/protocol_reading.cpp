@@ -34,10 +34,10 @@ struct ReadProtocolKeys : TableForm {
 };
 
 // A load or a pressure, like the recording.
-Option<ReadProtocolKeys> reading(std::string name, std::optional<Quantity> ReadProtocolKeys::*member,
-                                 bool signed_value, std::string sentence) {
+Option<ReadProtocolKeys> reading(StaticText name, std::optional<Quantity> ReadProtocolKeys::*member,
+                                 bool signed_value, StaticText sentence) {
   return custom<ReadProtocolKeys>(
-             std::move(name), "a load|a pressure", std::move(sentence),
+             name, "a load|a pressure", sentence,
              [member, signed_value](const Argument& value, const OptionInfo& info, ReadProtocolKeys& keys,
                                     Problems& problems) {
                const auto quantity = detail::read_any_quantity(

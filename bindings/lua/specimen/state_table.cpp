@@ -72,8 +72,8 @@ Dimension declared_dimension(const std::string& owner, const std::string& field,
     names.push_back(getter.name);
   }
   throw Error(ErrorCode::unknown_name,
-              (owner.empty() ? state.article_name : "a " + roughness.title + " result") + " has no field " +
-                  quoted(field) + meant_by(field, names),
+              (owner.empty() ? std::string(state.article_name) : "a " + roughness.title + " result") +
+                  " has no field " + quoted(field) + meant_by(field, names),
               owner.empty()
                   ? ""
                   : "it has " + joined(names, " and ") +

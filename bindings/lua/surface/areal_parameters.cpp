@@ -156,7 +156,7 @@ Values areal_parameters_of(Call& call) {
 
 Values why_not(Call& call) {
   const std::string name = call.text(1, "name");
-  if (std::ranges::find(areal_fields(), name, &Getter::name) == areal_fields().end())
+  if (std::ranges::find(areal_fields(), std::string_view(name), &Getter::name) == areal_fields().end())
     throw Error(ErrorCode::unknown_name, "there is no areal parameter " + quoted(name),
                 "give a field such as \"Str\"");
   const std::string why = call.self<Parameters>().why_not(name);

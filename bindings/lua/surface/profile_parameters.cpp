@@ -132,8 +132,8 @@ std::vector<RecordField<MeasuredProfile>> fields_of(char kind) {
       {"profile", "Profile", [](const M& m) { return Value(object(m.prepared.profile)); },
        kind == 'R' ? "the roughness profile" : "the primary profile, as it was evaluated"}};
   for (RecordField<M>& field : fields) {
-    field.info.name = named_of(kind, std::move(field.info.name));
-    field.info.sentence = named_of(kind, std::move(field.info.sentence));
+    field.info.name = named_of(kind, field.info.name);
+    field.info.sentence = named_of(kind, field.info.sentence);
   }
   return fields;
 }
