@@ -83,7 +83,7 @@ Json answer_to(const Json& asked) {
   if (what == "lessons") return lesson_entries(lua::lessons(), false);
   if (what == "lesson") return lesson_answer(lua::find_lesson(text_of(asked, "name")), false);
   if (what == "check") return check(asked);
-  if (what != "complete") throw Error(ErrorCode::unknown_name, "the page asks for " + asperity::quoted(what));
+  if (what != "complete") refuse_name("the page asks for " + asperity::quoted(what));
   const Json* position = asked.find("position");
   return completion_of(text_of(asked, "text"),
                        position == nullptr ? 0 : static_cast<std::size_t>(position->number()));

@@ -171,8 +171,7 @@ void check(const AskedError& asked, const Effects& named) {
   const std::span<const std::string> known = estimated_quantities();
   for (const std::string& quantity : asked.of) {
     if (std::ranges::find(known, quantity) == known.end())
-      throw Error(
-          ErrorCode::unknown_name,
+      refuse_name(
           "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
           "give one of " + joined(known, " and "));
     if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !named.names(effect))
@@ -213,8 +212,7 @@ void check_accuracy(const Scene& scene) {
 DiscretisationEstimate discretisation_estimate(const State& state, std::string_view name) {
   const StateQuantity* const found = find_quantity(name);
   if (found == nullptr || !found->cells)
-    throw Error(ErrorCode::unknown_name,
-                "no discretisation error of " + quoted(name) + " is estimated" +
+    refuse_name("no discretisation error of " + quoted(name) + " is estimated" +
                     did_you_mean(name, estimated_quantities()),
                 "there is one of " + joined(estimated_quantities()));
   const CellError& cells = *found->cells;

@@ -338,8 +338,7 @@ std::span<const std::string> State::field_names() { return names_of_fields; }
 std::shared_ptr<const Field> State::field(std::string_view name) const {
   const auto found = std::find(names_of_fields.begin(), names_of_fields.end(), name);
   if (found == names_of_fields.end())
-    throw Error(ErrorCode::unknown_name,
-                "a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
+    refuse_name("a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
                 "fields are " + joined(names_of_fields, " and "));
   if (name == "plastic" && !yields())
     refuse_without("the field `plastic`", effects_that(Effect::Acts::bounds_pressure),
@@ -378,9 +377,7 @@ Surface State::deformed(std::string_view body) const {
     traits.periodic = bodies.lower().traits().periodic;
     return Surface(bodies.grid(), solution()->lower_under_load(), std::move(traits));
   }
-  if (body != "upper")
-    throw Error(ErrorCode::unknown_name, "a contact has no body " + quoted(body),
-                "give \"lower\" or \"upper\"");
+  if (body != "upper") refuse_name("a contact has no body " + quoted(body), "give \"lower\" or \"upper\"");
   if (const Material* material = upper_material(bodies.upper())) traits.material = *material;
   const auto* rough = std::get_if<Surface>(&bodies.upper());
   traits.periodic = rough ? rough->traits().periodic : true;
@@ -390,8 +387,7 @@ Surface State::deformed(std::string_view body) const {
 Histogram State::distribution(std::string_view name, const HistogramOptions& options) const {
   static const std::array<std::string, 3> known = {"pressure", "gap", "spot_area"};
   if (std::find(known.begin(), known.end(), name) == known.end())
-    throw Error(ErrorCode::unknown_name,
-                "a state has no distribution " + quoted(name) + did_you_mean(name, known),
+    refuse_name("a state has no distribution " + quoted(name) + did_you_mean(name, known),
                 "distributions are " + joined(known, " and "));
   if (name == "spot_area") {
     const std::vector<double> areas = spot_areas();

@@ -24,6 +24,10 @@ void refuse_state(std::string sentence, std::string hint) {
   throw Error(ErrorCode::bad_state, std::move(sentence), std::move(hint));
 }
 
+void refuse_name(std::string sentence, std::string hint) {
+  throw Error(ErrorCode::unknown_name, std::move(sentence), std::move(hint));
+}
+
 void refuse_bad_file(std::string sentence, std::string hint) {
   throw Error(ErrorCode::bad_file, std::move(sentence), std::move(hint));
 }

@@ -45,6 +45,7 @@ class Error : public std::exception {
 };
 
 [[noreturn]] void refuse_state(std::string sentence, std::string hint = {});
+[[noreturn]] void refuse_name(std::string sentence, std::string hint = {});
 [[noreturn]] void refuse_bad_file(std::string sentence, std::string hint = {});
 
 }  // namespace asperity

@@ -73,8 +73,7 @@ double PartialSlip::stiffness() const { return stuck_ ? stuck_->stiffness() / co
 
 Field PartialSlip::field(std::string_view name) const {
   if (std::find(names_of_fields.begin(), names_of_fields.end(), name) == names_of_fields.end())
-    throw Error(ErrorCode::unknown_name,
-                "a shear has no field " + quoted(name) + did_you_mean(name, names_of_fields),
+    refuse_name("a shear has no field " + quoted(name) + did_you_mean(name, names_of_fields),
                 "fields are " + joined(names_of_fields, " and "));
   const Grid& grid = normal_.geometry().grid();
   if (name == "stick") return stuck_ ? *stuck_->field("contact") : Field(grid.nx, grid.ny);

@@ -62,8 +62,7 @@ const Palette& palette(std::string_view name) {
   for (const Palette& known : palettes)
     if (known.name == name) return known;
   const std::vector<std::string> names = palette_names();
-  throw Error(ErrorCode::unknown_name,
-              "`palette` " + quoted(name) + " is not known" + did_you_mean(name, names),
+  refuse_name("`palette` " + quoted(name) + " is not known" + did_you_mean(name, names),
               "palettes are " + joined(names, " and "));
 }
 

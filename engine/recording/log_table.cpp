@@ -169,8 +169,7 @@ void LogTable::refuse_unknown_names() const {
   const std::vector<std::string> names = known_names();
   for (const auto& [name, title] : form_.names)
     if (std::ranges::find(names, name) == names.end())
-      throw Error(ErrorCode::unknown_name,
-                  "`columns` names " + quoted(name) + ", which is no column of a protocol" +
+      refuse_name("`columns` names " + quoted(name) + ", which is no column of a protocol" +
                       did_you_mean(name, names),
                   "its columns are " + joined(names, " and "));
 }

@@ -129,7 +129,7 @@ double RunKnobs::value_of(const std::string& name, const std::string& text) cons
     if (made.knob.name == name) return value_for(made.knob, {parse_quantity(text), text});
     names.push_back(made.knob.name);
   }
-  throw Error(ErrorCode::unknown_name, "there is no knob " + quoted(name) + did_you_mean(name, names),
+  refuse_name("there is no knob " + quoted(name) + did_you_mean(name, names),
               names.empty() ? "lab.knob{ name=, from=, to=, value= } makes one"
                             : "the knobs are " + joined(names, " and "));
 }
@@ -158,8 +158,7 @@ void RunKnobs::check_all_made() const {
   }
   for (const auto& [name, given] : given_) {
     if (met_.contains(name) || std::ranges::find(names, name) != names.end()) continue;
-    throw Error(ErrorCode::unknown_name,
-                "the knob " + quoted(name) + " was set, and the script makes no such knob" +
+    refuse_name("the knob " + quoted(name) + " was set, and the script makes no such knob" +
                     did_you_mean(name, names),
                 names.empty() ? "the script made no knobs" : "its knobs are " + joined(listed, " and "));
   }

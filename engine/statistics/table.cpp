@@ -155,8 +155,7 @@ std::size_t Table::column(std::string_view name, std::string_view key) const {
   const std::string near = did_you_mean(name, names);
   std::string hint = near.empty() ? "its columns are " + joined(names, " and ") : "";
   if (names.empty()) hint = "nothing is written in " + name_ + " yet";
-  throw Error(ErrorCode::unknown_name,
-              quoted(key) + " names " + quoted(name) + ", which is no column of " + name_ + near, hint);
+  refuse_name(quoted(key) + " names " + quoted(name) + ", which is no column of " + name_ + near, hint);
 }
 
 const Cell& Table::cell(std::size_t row, std::size_t column) const {

@@ -31,8 +31,8 @@ const Material& named_material(std::string_view name) {
     if (material.name == name) return material;
     names.push_back(material.name);
   }
-  throw Error(
-      ErrorCode::unknown_name, "there is no material " + quoted(name) + did_you_mean(name, names),
+  refuse_name(
+      "there is no material " + quoted(name) + did_you_mean(name, names),
       "named materials are " + joined(names, " and ") + "; or give a table with `young` and `poisson`");
 }
 

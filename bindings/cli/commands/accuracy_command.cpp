@@ -68,8 +68,7 @@ class ScriptRun {
       stop_flag().check();
       return {{}, lua::error_text(L, -1)};
     }
-    if (const std::string unmade = unmade_knobs(session_); !unmade.empty())
-      throw Error(ErrorCode::unknown_name, unmade);
+    if (const std::string unmade = unmade_knobs(session_); !unmade.empty()) refuse_name(unmade);
     const lua::Argument value(L, -2), message(L, -1);
     if (value.is_number()) return {value.number(), ""};
     if (value.is_nil()) return {{}, message.is_text() ? std::string(message.text()) : std::string()};

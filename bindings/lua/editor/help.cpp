@@ -470,7 +470,7 @@ std::string help_text(const std::string& topic) {
     names.push_back(t.name);
     names.push_back(last_name(t.name));
   }
-  throw Error(ErrorCode::unknown_name, "there is no help on " + quoted(topic) + did_you_mean(topic, names),
+  refuse_name("there is no help on " + quoted(topic) + did_you_mean(topic, names),
               "help without a topic lists all topics");
 }
 

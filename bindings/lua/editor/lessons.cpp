@@ -231,8 +231,7 @@ const Lesson& find_lesson(std::string_view called, const std::vector<Lesson>& al
       return lesson;
     names.push_back(lesson.name);
   }
-  throw Error(ErrorCode::unknown_name,
-              "there is no lesson " + quoted(called) + did_you_mean(std::string(called), names),
+  refuse_name("there is no lesson " + quoted(called) + did_you_mean(std::string(called), names),
               "the lessons are " + joined(names, " and "));
 }
 

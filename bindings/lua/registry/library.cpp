@@ -221,8 +221,7 @@ int module_index(lua_State* L) {
   const int results = guarded(L, "", [&]() -> Values {
     const Argument key(L, 2);
     const std::string shown = key.is_text() ? quoted(key.text().substr(0, 40)) : key.describe();
-    throw Error(ErrorCode::unknown_name,
-                module.path + " has no field " + shown +
+    refuse_name(module.path + " has no field " + shown +
                     (key.is_text() ? did_you_mean(key.text(), names_of_members(module)) : ""),
                 "lab.help \"" + module.path + "\" lists its members");
   });

@@ -56,8 +56,7 @@ int guarded_field(lua_State* L, const Class& type) {
     if (self == nullptr) refuse("this is not " + type.article_name);
     if (type.item != nullptr && key.is_number() && key.integer()) return {item_of(*self, *key.integer())};
     if (!key.is_text())
-      throw Error(ErrorCode::unknown_name, type.article_name + " was indexed with " + key.describe(),
-                  "its fields have names");
+      refuse_name(type.article_name + " was indexed with " + key.describe(), "its fields have names");
     if (self->closed) refuse_closed(type);
     for (const Getter& field : type.fields) {
       if (field.name != key.text()) continue;
@@ -69,8 +68,7 @@ int guarded_field(lua_State* L, const Class& type) {
       return values;
     }
     const std::string meant = meant_by(key.text(), type.names());
-    throw Error(ErrorCode::unknown_name,
-                type.article_name + " has no field " + quoted(key.text().substr(0, 40)) + meant,
+    refuse_name(type.article_name + " has no field " + quoted(key.text().substr(0, 40)) + meant,
                 meant.empty() ? given_by(type, key.text()) : "");
   });
 }

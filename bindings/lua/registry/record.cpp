@@ -36,8 +36,7 @@ int missing_field(lua_State* L) {
     for (const auto& [field, effect] : record.missing_effects)
       if (key.is_text() && key.text() == field)
         refuse_without(quoted(field), quoted(effect), "name it in the effects of the contact");
-    throw Error(
-        ErrorCode::unknown_name,
+    refuse_name(
         "a " + record.name + " result has no field " +
             (key.is_text() ? quoted(key.text().substr(0, 40)) + meant_by(key.text(), names) : key.describe()),
         "it has " + joined(names, " and "));
@@ -174,8 +173,7 @@ int guarded_iterator_index(lua_State* L) {
     if (known && key.is_text() && key.text() == "table" && (*block)->table)
       return {Value(Value::Function(table_of))};
     const std::string name = known ? (*block)->name : "an iterator";
-    throw Error(ErrorCode::unknown_name,
-                name + " gives an iterator, and " + (key.is_text() ? quoted(key.text()) : key.describe()) +
+    refuse_name(name + " gives an iterator, and " + (key.is_text() ? quoted(key.text()) : key.describe()) +
                     " was read from it",
                 "write for ... in " + name + "(...) do");
   });

@@ -98,10 +98,10 @@ void Variation::check_all_met() const {
     } else {
       sentence += did_you_mean(setting.key, meant.empty() ? all : meant);
     }
-    throw Error(ErrorCode::unknown_name, sentence,
-                all.empty()                               ? "no call was made with keys"
-                : meant.empty() || setting.caller.empty() ? "keys that were given: " + joined(all, " and ")
-                                                          : "keys that it gives: " + joined(meant, " and "));
+    refuse_name(sentence, all.empty() ? "no call was made with keys"
+                          : meant.empty() || setting.caller.empty()
+                              ? "keys that were given: " + joined(all, " and ")
+                              : "keys that it gives: " + joined(meant, " and "));
   }
 }
 

@@ -59,9 +59,8 @@ void look_at_columns(const Call& call) {
   const auto look = [&](const Argument& column) {
     const std::string name(column.is_text() ? split_column_unit(column.text()).name : *columns->begin());
     if (!columns->contains(name))
-      throw Error(ErrorCode::unknown_name,
-                  "no row of the notebook has a column " + quoted(name) +
-                      did_you_mean(name, std::vector<std::string>(columns->begin(), columns->end())));
+      refuse_name("no row of the notebook has a column " + quoted(name) +
+                  did_you_mean(name, std::vector<std::string>(columns->begin(), columns->end())));
   };
   const Argument first = call.argument(1);
   if (call.function_name().ends_with(":histogram")) look_at_histogram(call);

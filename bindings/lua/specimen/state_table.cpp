@@ -30,7 +30,7 @@ Cell field_at(lua_State* L, int index, const std::string& field) {
     lua_getfield(s, 1, field.c_str());
     return 1;
   };
-  if (protect(L, 1, 1, read) != LUA_OK) throw Error(ErrorCode::unknown_name, error_text(L, -1));
+  if (protect(L, 1, 1, read) != LUA_OK) refuse_name(error_text(L, -1));
   const Argument value(L, -1);
   if (value.is_nil()) return {};
   const auto cell = cell_of(value);
@@ -71,8 +71,7 @@ Dimension declared_dimension(const std::string& owner, const std::string& field,
     if (getter.name == field) return getter.dimension;
     names.push_back(getter.name);
   }
-  throw Error(ErrorCode::unknown_name,
-              (owner.empty() ? std::string(state.article_name) : "a " + roughness.title + " result") +
+  refuse_name((owner.empty() ? std::string(state.article_name) : "a " + roughness.title + " result") +
                   " has no field " + quoted(field) + meant_by(field, names),
               owner.empty()
                   ? ""
@@ -89,7 +88,7 @@ StateTable columns_given(const Call& call) {
   if (!problems.empty())
     refuse(joined(problems, "; "), "write it such as :table{ \"pressure [MPa]\", \"area_fraction [%]\" }");
   StateTable::find_mistakes(names, {}, problems);
-  if (!problems.empty()) throw Error(ErrorCode::unknown_name, joined(problems, "; "));
+  if (!problems.empty()) refuse_name(joined(problems, "; "));
   return {names, {}};
 }
 
@@ -105,8 +104,7 @@ StateTable::StateTable(const std::vector<std::string>& names, TraceKeys traces) 
     }
     static const std::vector<std::string> owners = {"", "lower", "upper", "trace"};
     if (std::ranges::find(owners, column.owner) == owners.end())
-      throw Error(ErrorCode::unknown_name,
-                  "the column " + quoted(name) + " is of " + quoted(column.owner) +
+      refuse_name("the column " + quoted(name) + " is of " + quoted(column.owner) +
                       did_you_mean(column.owner, owners),
                   "give a quantity of the state, or one of lower, upper or trace, such as \"lower.Ra [um]\"");
     table_.declare_dimension(column.name,

@@ -79,8 +79,7 @@ Values spread_state_write(Call& call) {
   const std::string name = call.text(1, "name"), path = writable_path(call, call.text(2, "path"));
   const bool pressure = name == "pressure", contact = name == "contact";
   if (!pressure && !contact && name != "gap")
-    throw Error(ErrorCode::unknown_name, "there is no field " + quoted(name),
-                "give \"pressure\", \"gap\" or \"contact\"");
+    refuse_name("there is no field " + quoted(name), "give \"pressure\", \"gap\" or \"contact\"");
   Team& team = team_of(call);
   if (!state.has_fields) {  // from the store
     state.answer = std::make_shared<const SlabContactAnswer>(

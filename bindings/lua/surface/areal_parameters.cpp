@@ -157,8 +157,7 @@ Values areal_parameters_of(Call& call) {
 Values why_not(Call& call) {
   const std::string name = call.text(1, "name");
   if (std::ranges::find(areal_fields(), std::string_view(name), &Getter::name) == areal_fields().end())
-    throw Error(ErrorCode::unknown_name, "there is no areal parameter " + quoted(name),
-                "give a field such as \"Str\"");
+    refuse_name("there is no areal parameter " + quoted(name), "give a field such as \"Str\"");
   const std::string why = call.self<Parameters>().why_not(name);
   return {why.empty() ? Value() : Value(why)};
 }

@@ -165,7 +165,7 @@ Values profile_parameters_of(Call& call) {
   if (keys.setting) {
     const auto named = setting_class(*keys.setting);
     if (!named)
-      throw Error(ErrorCode::unknown_name, "there is no setting class " + quoted(*keys.setting),
+      refuse_name("there is no setting class " + quoted(*keys.setting),
                   "ISO 21920-3 has Sc1, Sc2, Sc3, Sc4 and Sc5, of sections 0.08, 0.25, 0.8, 2.5 and 8 mm");
     preparation = *named;
   } else {

@@ -60,7 +60,7 @@ const Effect* require_effect(std::string_view name) {
           "computed here: " + joined(ready, " and "));
   std::vector<std::string> names = ready;
   for (const auto& [left_out, sentence] : not_modelled) names.emplace_back(left_out);
-  throw Error(ErrorCode::unknown_name, "there is no effect " + quoted(name) + did_you_mean(name, names),
+  refuse_name("there is no effect " + quoted(name) + did_you_mean(name, names),
               "known are " + joined(ready, " and "));
 }
 

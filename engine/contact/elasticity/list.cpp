@@ -24,8 +24,7 @@ const ElasticModel& require_elastic_model(std::string_view name) {
     return **known;
   std::vector<std::string> names;
   for (const ElasticModel* model : all) names.emplace_back(model->name);
-  throw Error(ErrorCode::unknown_name,
-              "there is no model of elasticity " + quoted(name) + did_you_mean(name, names),
+  refuse_name("there is no model of elasticity " + quoted(name) + did_you_mean(name, names),
               "known are " + joined(names, " and "));
 }
 

@@ -91,7 +91,7 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
       names.emplace_back(format->name);
       quoted_names.push_back(quoted(format->name));
     }
-    throw Error(ErrorCode::unknown_name, "`format` is \"" + forced + "\"" + did_you_mean(forced, names),
+    refuse_name("`format` is \"" + forced + "\"" + did_you_mean(forced, names),
                 "known formats are " + joined(quoted_names, " and "));
   }
   for (const Format* format : formats())
