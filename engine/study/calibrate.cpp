@@ -217,7 +217,14 @@ class CalibrationWork {
     problem_.say("fit of the means of specimens");
     problem_.observe(specimen_observations(groups_, variances));
     by_specimens_ = true;
-    settle(at_.place.q);
+    try {
+      settle(at_.place.q);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::not_converged) throw;
+      throw Error(ErrorCode::not_converged, "of the means of specimens, " + error.sentence(),
+                  "measure specimens under more different conditions; basis=\"rows\" fits the rows, and its "
+                  "intervals leave out the scatter of specimens");
+    }
   }
 
   void settle(const std::vector<double>& start) {

@@ -264,9 +264,9 @@ TableColumns CalibrationProblem::jacobian(const CalibrationPlace& at, const std:
   for (std::size_t p = 0; p < parameters(); ++p) {
     if (held[p]) continue;
     std::optional<std::vector<double>> column;
-    // Smaller steps near the edge of the domain.
+    // Smaller steps near the edge of the domain, and none that rounding loses.
     for (double share = parameters_[p].step; !column && share > parameters_[p].step * 1e-4; share /= 30)
-      column = slopes(at, p, share * scales[p], central);
+      column = slopes(at, p, std::max(share * scales[p], 1e-9 * std::abs(at.q[p])), central);
     if (!column) refuse_place("where its derivatives are taken");
     columns[p] = *std::move(column);
   }

@@ -412,6 +412,36 @@ TEST(Calibration, MeansOfEqualRepeatsAreTheFitOfTheMeans) {
   }
 }
 
+// Each of five specimens under nearly the same three loads: their means hardly determine the parameters.
+TEST(Calibration, MeansAtNearlyEqualLoadsGiveAResultOrTheCure) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Stream draws(seed, "nearly equal loads");
+    CalibrationRows rows;
+    std::vector<double> load;
+    for (std::size_t k = 0; k < 15; ++k) {
+      const std::size_t specimen = k % 5;
+      load.push_back(1 + 2 * static_cast<double>(k / 5) + 0.01 * static_cast<double>(specimen));
+      rows.y.push_back(0.3 * std::pow(load.back(), 0.4) *
+                       (1 + 0.05 * draws.normal(100 + specimen) + 0.01 * draws.normal(k)));
+      rows.specimens.push_back("specimen " + std::to_string(specimen));
+    }
+    const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+      return q[0] * std::pow(load[row], q[1]);
+    };
+    const std::vector<CalibrationParameter> law = {{"k", 0.2, {}, {}}, {"e", 0.5, {}, {}}};
+    CalibrationOptions options = relative;
+    try {
+      EXPECT_TRUE(calibrate(rows, model, law, options).by_specimens) << seed;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::not_converged) << seed << ": " << error.what();
+      EXPECT_TRUE(says(error.what(), "of the means of specimens, ")) << seed << ": " << error.what();
+    }
+    options.basis = CalibrationBasis::rows;
+    const Calibration found = calibrate(rows, model, law, options);
+    EXPECT_NEAR(*found.parameters[1].value, 0.4, 0.1) << seed;
+  }
+}
+
 TEST(Calibration, OneRowASpecimenIsNoRepeat) {
   const Experiment made = experiment(8, 4, 0, 3, 1);
   const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
