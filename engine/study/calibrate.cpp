@@ -222,8 +222,7 @@ class CalibrationWork {
     } catch (const Error& error) {
       if (error.code() != ErrorCode::not_converged) throw;
       throw Error(ErrorCode::not_converged, "of the means of specimens, " + error.sentence(),
-                  "measure specimens under more different conditions; basis=\"rows\" fits the rows, and its "
-                  "intervals leave out the scatter of specimens");
+                  "vary the conditions of specimens; intervals of basis=\"rows\" leave out their scatter");
     }
   }
 

@@ -132,14 +132,17 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       answer = solve_by_load(problem, sought, std::move(answer), monitor);
       if (answer.converged) return answer;
     }
-  const int so_far = answer.iterations;
-  const ChainEffort effort = long_cells ? ChainEffort::less : ChainEffort::full;
-  answer = solve_at_offset(problem, approach, infinity, nullptr, effort, monitor);
-  answer.iterations += so_far;
+  const auto descend = [&](ChainEffort effort) {
+    const int so_far = answer.iterations;
+    answer = solve_at_offset(problem, approach, infinity, nullptr, effort, monitor);
+    answer.iterations += so_far;
+  };
+  descend(long_cells ? ChainEffort::less : ChainEffort::full);
   if (!answer.converged) {
     bound_by_full_contact();
     answer = solve_by_load(problem, sought, std::move(answer), monitor);
   }
+  if (!answer.converged && long_cells) descend(ChainEffort::full);
   return met(problem, std::move(answer), "an approach of " + metres(approach));
 }
 
