@@ -82,10 +82,11 @@ const Block& map_block(const SourceFile& file, const std::vector<Block>& blocks,
       arrays.push_back(&block);
       maps.push_back({plain_text(block.name)});
     }
-  const auto usual = std::ranges::find_first_of(map_names, arrays, {}, {}, &Block::name);
-  if (usual != map_names.end())
-    maps[static_cast<std::size_t>(std::ranges::find(arrays, *usual, &Block::name) - arrays.begin())].heights =
-        true;
+  for (const auto& usual : map_names)
+    if (const auto found = std::ranges::find(arrays, usual, &Block::name); found != arrays.end()) {
+      maps[static_cast<std::size_t>(found - arrays.begin())].heights = true;
+      break;
+    }
   return *arrays[chosen_map(file, maps, channel)];
 }
 
