@@ -233,7 +233,7 @@ class Completer {
     }
     keys_after(given);
     for (const OptionInfo* option : block.options())
-      if (!given.contains(option->name)) {
+      if (!given.contains(std::string_view(option->name))) {
         const std::string unit = si_unit(option->dimension);
         add({option->name, "key", describe_option(*option) + (unit.empty() ? "" : "; a number is in " + unit),
              option->sentence});
