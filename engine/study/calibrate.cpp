@@ -221,7 +221,7 @@ class CalibrationWork {
       settle(at_.place.q);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::not_converged) throw;
-      throw Error(ErrorCode::not_converged, "of the means of specimens, " + error.sentence(),
+      throw Error(ErrorCode::not_converged, "for the means of specimens, " + error.sentence(),
                   "vary the conditions of specimens; intervals of basis=\"rows\" leave out their scatter");
     }
   }

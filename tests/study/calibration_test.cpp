@@ -434,7 +434,7 @@ TEST(Calibration, MeansAtNearlyEqualLoadsGiveAResultOrTheCure) {
       EXPECT_TRUE(calibrate(rows, model, law, options).by_specimens) << seed;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::not_converged) << seed << ": " << error.what();
-      EXPECT_TRUE(says(error.what(), "of the means of specimens, ")) << seed << ": " << error.what();
+      EXPECT_TRUE(says(error.what(), "for the means of specimens, ")) << seed << ": " << error.what();
     }
     options.basis = CalibrationBasis::rows;
     const Calibration found = calibrate(rows, model, law, options);

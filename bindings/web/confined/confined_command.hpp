@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `asperity run --confined` for a foreign script. The program starts itself as a confined process
-// (confined_main), which reads the script and the --read folders, writes the run directory and the given
-// store, and reaches no other file, process or network. This side passes on output, exit status and signals,
-// draws charts, and enforces limits of time and disk. Resume and replay are confined too.
+// (confined_main). This process reads the script and the --read folders, writes the run directory and the
+// given store, and reaches no other file, process or network. The parent passes on output, exit status and
+// signals, draws charts, and limits time and disk. Resume and replay are confined too.
 #pragma once
 
 #include "bindings/web/confined/confined_request.hpp"
