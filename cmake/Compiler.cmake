@@ -29,6 +29,9 @@ if(EMSCRIPTEN)
 else()
   set(ASPERITY_LIGHT_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 endif()
+# g++ collects garbage after every 128 MiB by default. With 512 MiB a first build takes 0.87 times the processor time and up
+# to 1 GiB per compiler.
+target_compile_options(asperity_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 # Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
 target_compile_options(asperity_options INTERFACE -ffp-contract=off)
 target_compile_definitions(asperity_options INTERFACE EIGEN_DONT_PARALLELIZE)
