@@ -12,7 +12,7 @@ namespace {
 constexpr int slow_steps = 1;          // slow steps before the bracket is halved
 constexpr double enough_gain = 0.3;    // error ratio of a step that is not slow
 constexpr int few_short = 2;           // short steps before steps grow
-constexpr double furthest = 100;       // largest ratio to the last place
+constexpr double furthest = 100;       // largest ratio to the last place, or to a missing lower end
 constexpr double off_the_ends = 0.01;  // of the bracket, between step and ends
 constexpr double near_the_end = 0.3;   // fraction of the initial upper end
 constexpr double usual_power = 1.5, least_power = 1e-9;
@@ -85,18 +85,17 @@ double BracketedSecant::width() const {
 }
 
 double BracketedSecant::part_of_the_way(double share) const {
-  if (scale_ == Scale::logarithmic && low_.at > 0)
-    return low_.at * elementary::exp(share * elementary::log(high_.at / low_.at));
-  return low_.at + share * (high_.at - low_.at);
+  if (scale_ == Scale::linear) return low_.at + share * (high_.at - low_.at);
+  const double from = low_.at > 0 ? low_.at : high_.at / furthest;
+  return from * elementary::exp(share * elementary::log(high_.at / from));
 }
 
 double BracketedSecant::chord() const {
   double share = 0.5;
-  if (high_.value < unknown) {
-    const bool by_factors = scale_ == Scale::logarithmic && low_.at > 0 && low_.value > 0;
-    share = by_factors ? elementary::log(wanted_ / low_.value) / elementary::log(high_.value / low_.value)
-                       : (wanted_ - low_.value) / (high_.value - low_.value);
-  }
+  if (high_.value < unknown && scale_ == Scale::linear)
+    share = (wanted_ - low_.value) / (high_.value - low_.value);
+  else if (high_.value < unknown && low_.value > 0)
+    share = elementary::log(wanted_ / low_.value) / elementary::log(high_.value / low_.value);
   return part_of_the_way(std::clamp(share, off_the_ends, 1 - off_the_ends));
 }
 
