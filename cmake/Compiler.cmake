@@ -29,8 +29,8 @@ if(EMSCRIPTEN)
 else()
   set(ASPERITY_LIGHT_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 endif()
-# g++ collects garbage after every 128 MiB by default. With 512 MiB a first build takes 0.87 times the processor time and up
-# to 1 GiB per compiler.
+# g++ collects its garbage from 128 MiB on by default. From 512 MiB on, a unity source of contact compiles in 24 s instead of
+# 29 s of processor time, with 1.0 GiB of memory instead of 0.7 (AMD EPYC, Zen 5).
 target_compile_options(asperity_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 # Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
 target_compile_options(asperity_options INTERFACE -ffp-contract=off)
