@@ -26,7 +26,7 @@ const delays = ['rest', 'restAlive', 'playedFor', 'toldAfter'].map((name) =>
 export async function openBrowser(more = []) {
   return (puppeteer.default ?? puppeteer).launch({
     executablePath: process.env.CHROMIUM,
-    headless: true,
+    headless: 'shell',
     timeout: patience,
     protocolTimeout: patience,
     args: [

@@ -18,8 +18,9 @@ if [ "$group" = types ]; then
   cd "$ASPERITY_PAGE_BUILD/page-build"
   exec "$node" node_modules/typescript/bin/tsc --noEmit
 fi
-CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || true)}
-[ -n "$CHROMIUM" ] || skip "Chromium is not installed (Debian's package chromium)"
+# Chromium without a window loads the page in half the time.
+CHROMIUM=${CHROMIUM:-$(command -v chromium-headless-shell || command -v chromium || command -v chromium-browser || true)}
+[ -n "$CHROMIUM" ] || skip "Chromium is not installed (Debian's package chromium-headless-shell or chromium)"
 export ASPERITY_PAGE_BUILD ASPERITY_PROGRAM CHROMIUM
 case $group in
   */*) exec "$node" "$group" ;;

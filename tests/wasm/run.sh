@@ -87,4 +87,4 @@ for file in "$module"/site/*.js "$module"/site/*.css "$module"/site/*.html "$mod
 done
 echo "the page: $bytes bytes after gzip -9, without documents"
 ASPERITY_ALONE=$module/site ASPERITY_PROGRAM=$native ASPERITY_PAGE_BUILD=$module ASPERITY_LESSONS=$lessons \
-  CHROMIUM=${CHROMIUM:-$(command -v chromium)} node --test "$here/page_test.mjs"
+  CHROMIUM=${CHROMIUM:-$(command -v chromium-headless-shell || command -v chromium)} node --test "$here/page_test.mjs"
