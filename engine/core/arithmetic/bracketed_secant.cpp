@@ -10,7 +10,7 @@ namespace asperity {
 
 namespace {
 constexpr int slow_steps = 1;          // slow steps before the bracket is halved
-constexpr double enough_gain = 0.3;    // error ratio of a step that is not slow
+constexpr double enough_gain = 0.8;    // error ratio of a step that is not slow
 constexpr int few_short = 2;           // short steps before steps grow
 constexpr double furthest = 100;       // largest ratio to the last place, or to a missing lower end
 constexpr double off_the_ends = 0.01;  // of the bracket, between step and ends

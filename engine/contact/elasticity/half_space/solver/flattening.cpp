@@ -126,11 +126,11 @@ bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& ans
          2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
 }
 
-bool is_complete(double fraction, double accuracy) { return fraction >= 1 - 0.9 * accuracy; }
+bool is_complete(double fraction, double accuracy) { return fraction >= 1 - near_enough_share * accuracy; }
 
 // Complete flattening continues beyond full contact: aim just below.
 double wanted_share(double fraction, double accuracy) {
-  return is_complete(fraction, accuracy) ? 1 - 0.4 * accuracy : fraction;
+  return is_complete(fraction, accuracy) ? fraction - (1 - near_enough_share) * accuracy : fraction;
 }
 
 // Searches the approach that flattens a share, to `accuracy`; unconverged if the load is the better variable.
@@ -138,7 +138,7 @@ double wanted_share(double fraction, double accuracy) {
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
                                     Monitor& monitor) {
-  constexpr double decades = 1e2;
+  constexpr double decades = 1e2, steep = 3;
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
@@ -158,10 +158,9 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   HalfSpaceProblem now = problem;
   now.tolerance = std::max(accuracy, rough_tolerance);
   HalfSpaceAnswer answer, before;
-  double pressed = 0;
-  double gain = 1;  // d(flattened height)/d(approach), >= 1
+  double pressed = 0, gain = 1;  // flattened height, m, and its change per approach, >= 1
   bool afresh = false, stalled = false, by_load = false;
-  int applications = 0;
+  int applications = 0, nearly_all_met = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     HalfSpaceAnswer start;
     if (solve > 0 && std::abs(approach / answer.approach - 1) < near_start) {
@@ -185,7 +184,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     // Below the requested tolerance a failure may be rounding.
     stalled = !answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy);
     if (stalled) break;
-    const bool near_enough = error <= 0.5 * accuracy;
+    const bool near_enough = error <= near_enough_share * accuracy;
     const bool too_far = near_enough && most_at_the_cap(problem, answer);
     if (too_far && now.tolerance > least_tolerance) {
       now.tolerance = std::max(least_tolerance, much_tighter * now.tolerance);
@@ -200,9 +199,11 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? error_share : 0.02) * error / gain));
     if (near_enough && !too_far) continue;
-    // Decades of load for little approach.
-    by_load = met.below && met.above && met.above->at > decades * met.below->at &&
-              std::abs(approach / before.approach - 1) < near_start;
+    // Little approach for decades of load or, without a hardness, for nearly all of the flattening.
+    nearly_all_met += nothing_more && !problem.yield.caps();
+    by_load = met.above && (nearly_all_met > (gain > steep ? 0 : 1) ||
+                            (met.below && met.above->at > decades * met.below->at &&
+                             std::abs(approach / before.approach - 1) < near_start));
     if (by_load) break;
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
@@ -263,10 +264,9 @@ std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, d
   if (problem.yield.caps()) return {};
   auto pressure = load_of_all(problem);
   if (!pressure) return {};
-  const bool periodic = problem.boundary == Boundary::periodic;
   HalfSpaceProblem now = problem;
   now.brief = now.best_effort = true;
-  double load = periodic ? *pressure : to_a_rim * *pressure;
+  double load = (problem.boundary == Boundary::periodic ? 1 : to_a_rim) * *pressure;
   int applications = 0;
   for (int n = 0; n < tries; ++n, load *= more) {
     HalfSpaceAnswer answer = solve_at_pressure(now, load, nullptr, monitor);

@@ -110,7 +110,6 @@ class LoadSearch {
 
   double first_load();
   void solve(double pressure);
-  double error_of(double found) const { return std::abs(found / sought_.wanted - 1); }
   double floor() const {
     return std::max(least_tolerance, tightest_of_all * problem_.tolerance / std::max(1.0, unit_));
   }
@@ -165,8 +164,8 @@ HalfSpaceAnswer LoadSearch::run() {
        ++solve_count) {
     solve(pressure);
     const double found = sought_.measure(answer_);
-    error = error_of(found);
-    const bool near_enough = error <= 0.5 * problem_.tolerance;
+    error = std::abs(found / sought_.wanted - 1);
+    const bool near_enough = error <= near_enough_share * problem_.tolerance;
     if (near_enough && answer_.certificate.worst() <= problem_.tolerance) return ended(error, true);
     const bool tightest = now_.tolerance <= least_, no_tighter = least_ <= floor();
     if (applications_ > most_applications || (near_enough && tightest)) break;
@@ -177,7 +176,7 @@ HalfSpaceAnswer LoadSearch::run() {
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
     const bool nothing_more = nearly_all(found, sought_.wanted, sought_.most);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more);
-    now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
+    now_.tolerance = std::clamp(next_error * error / unit_, least_, std::max(least_, start_tolerance));
     if (near_enough) continue;
     const std::optional<double> next = root_.next();
     const double room = std::min(pressure, end_.at - pressure);

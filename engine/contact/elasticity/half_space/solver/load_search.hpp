@@ -20,7 +20,8 @@ inline constexpr int most_solves = 60;
 inline constexpr double good_start = 0.1;  // certificate of a warm start
 inline constexpr double near_start = 0.3;  // relative change of load or approach for a warm start
 inline constexpr double least_tolerance = 1e-13;
-inline constexpr double much_tighter = 0.01;  // factor of a tolerance that chose the wrong side
+inline constexpr double near_enough_share = 0.9;  // of the tolerance, for the sought quantity
+inline constexpr double much_tighter = 0.01;      // factor of a tolerance that chose the wrong side
 // Gap error: complementarity averages over the load; penetration ignores open nodes. Seen: 20.
 inline constexpr double gap_per_residual = 20;
 
