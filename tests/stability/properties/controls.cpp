@@ -34,7 +34,7 @@ struct Cells {
 struct Counts {
   std::vector<double> times;  // relative to the press by pressure
   Cells cells[3] = {
-      {"up to 10", 10, 0.001, 0}, {"10 to 300", 300, 0.01, 0}, {"over 300", infinity, 0.02, 0.02}};
+      {"up to 10", 10, 0.001, 0}, {"10 to 300", 300, 0.005, 0}, {"over 300", infinity, 0.02, 0.02}};
 };
 Counts& counts() {
   static Counts of_run, of_smaller;
