@@ -25,7 +25,7 @@ constexpr int many_presses = 100;
 // Bytes above the memory that `explain` predicts.
 constexpr double most_beyond = 1 << 20;
 
-// Presses on cells at most this many times longer than wide, and the shares that may be expensive or lost.
+// Presses on cells at most `longest` times longer than wide, and the shares that may be expensive or lost.
 struct Cells {
   const char* name;
   double longest, most_dear, most_lost;

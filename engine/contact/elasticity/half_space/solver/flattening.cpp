@@ -128,7 +128,7 @@ bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& ans
 
 bool is_complete(double fraction, double accuracy) { return fraction >= 1 - near_enough_share * accuracy; }
 
-// Complete flattening continues beyond full contact: aim just below.
+// Complete flattening continues beyond full contact: aim just below, within the accuracy.
 double wanted_share(double fraction, double accuracy) {
   return is_complete(fraction, accuracy) ? fraction - (1 - near_enough_share) * accuracy : fraction;
 }
@@ -199,7 +199,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? error_share : 0.02) * error / gain));
     if (near_enough && !too_far) continue;
-    // Little approach for decades of load or, without a hardness, for nearly all of the flattening.
+    // Little approach for decades of load or, without a cap, for nearly all of the flattening.
     nearly_all_met += nothing_more && !problem.yield.caps();
     by_load = met.above && (nearly_all_met > (gain > steep ? 0 : 1) ||
                             (met.below && met.above->at > decades * met.below->at &&
